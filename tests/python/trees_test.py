@@ -336,6 +336,41 @@ class TreesTest(unittest.TestCase):
             it.tick()
         self.assertEqual(logged.output, ["INFO:lockstep:Main/it: here"])
 
+    def test_a_leaf_logs_from_any_thread_until_it_is_destroyed(self):
+        kept, lines = [], []
+
+        def todo(leaf):
+            kept.append(leaf)
+            thread = threading.Thread(target=leaf.log, args=("from a thread", "warning"))
+            thread.start()
+            thread.join()
+            leaf.log("nothing is hidden\0 here")
+            return None
+        Does.todo = todo
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "run.jsonl")
+            with tree("<Does/>", log=lambda *line: lines.append(line)) as it:
+                it.record(file)
+                it.tick()
+                kept[0].log("between two ticks")
+            kept[0].log("gone")
+            recorded = pathlib.Path(file).read_text(encoding="utf-8")
+        told = ["from a thread", "nothing is hidden here", "between two ticks"]
+        self.assertEqual([text for _, _, text in lines], [*told, "gone"])
+        self.assertEqual([text for text in [*told, "gone"] if text in recorded], told)
+
+    def test_an_exception_of_the_log_function_is_raised_after_the_tick(self):
+        def refuse(*line):
+            raise ZeroDivisionError("no room")
+        Does.todo = lambda leaf: leaf.log("x")
+        with tree("<Does/>", log=refuse) as it, self.assertRaisesRegex(ZeroDivisionError, "no room"):
+            it.tick()
+
+    def test_what_a_leaf_does_is_read_as_that_of_a_program(self):
+        wrong = type("Wrong", (Action,), {"behavior": {"tick": "2"}, "tick": lambda leaf: True})
+        with self.assertRaisesRegex(lockstep.Error, "'tick'"):
+            tree("<Wrong/>", [wrong])
+
     def test_the_random_numbers_are_those_of_the_program(self):
         with tempfile.TemporaryDirectory() as directory:
             program = os.path.join(directory, "dice.py")

@@ -64,19 +64,6 @@ class Waiting(str):
         return super().__new__(cls, *text)
 
 
-def _kept(leaf):
-    "The text that a leaf keeps for another process."
-    return json.dumps(leaf.save(), separators=(",", ":"), allow_nan=False)
-
-
-def _goes_on(leaf, kept, cut):
-    "Whether it continues with this text, or starts again. Failed: neither."
-    goes_on = leaf.restore(json.loads(kept), cut)
-    if goes_on not in (True, False):
-        raise ValueError(f"restore returned {goes_on!r}, expected True (it continues) or False (it starts again)")
-    return goes_on
-
-
 class Cut:
     """How the process of the run ended before this one: whether the machine was off (power), whether the leaf got no
     ticks then (held), how many seconds ago (gap), and how many ticks the run may have forgotten (lost_ticks). on_resume is
@@ -102,6 +89,50 @@ class Refused(Exception):
     def __init__(self, message, port="", hint=""):
         super().__init__(message)
         self.port, self.hint = port, hint
+
+
+def _as_bool(value):
+    if isinstance(value, bool):
+        return value
+    raise TypeError
+
+
+def _as_int(value):
+    if isinstance(value, bool) or not hasattr(value, "__index__"):
+        raise TypeError
+    value = value.__index__()
+    if not -2**63 <= value < 2**63:
+        raise ValueError(f"{value} does not fit 64 bits")
+    return value
+
+
+def _as_float(value):
+    if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
+        raise TypeError
+    return float(value)
+
+
+def _as_str(value):
+    if isinstance(value, str):
+        return str.__str__(value)  # of an Enum: its value
+    raise TypeError
+
+
+_ITEMS = {"bool": _as_bool, "int": _as_int, "double": _as_float, "string": _as_str}
+
+
+def _as_type(type_, value):
+    "A value of this type, which is not one that others have: numbers that fit are converted. TypeError: it is none."
+    if not type_.startswith("list of "):
+        return _ITEMS[type_](value)
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
+        raise TypeError
+    return [_ITEMS[type_[len("list of "):]](it) for it in value]
+
+
+def _text(text, most=4096):
+    "A text for people, as lockstep takes it: UTF-8, which a name of a file may not be, without NUL, and of so many bytes."
+    return str(text).replace("\0", "").encode("utf-8", "replace")[:most].decode("utf-8", "ignore")
 
 
 class _Directed:
@@ -145,8 +176,8 @@ class _Attribute:
                             "or a list of them: list[float]")
         if name in _TAKEN:
             raise TypeError(f"a port cannot be called '{name}', as leaves have a {name} already")
-        self.name, self.direction = name, directed.direction
-        self.fact = {"name": name, "type": _TYPES[directed.type], "direction": self.direction}
+        self.name, self.direction, self.type = name, directed.direction, _TYPES[directed.type]
+        self.fact = {"name": name, "type": self.type, "direction": self.direction}
         if port.default is not None:
             default = port.default
             self.fact["default"] = _plain(default) if isinstance(default, list) else default
@@ -163,12 +194,16 @@ class _Attribute:
         if value is None:
             raise AttributeError(f"the port '{self.name}' has no value" +
                                  ("" if leaf._has_ports else " yet: start and tick can read it"))
-        return value
+        return list(value) if isinstance(value, list) else value
 
     def __set__(self, leaf, value):
         if self.direction == "input":
             raise AttributeError(f"the port '{self.name}' is an input")
-        for number in value if isinstance(value, (list, tuple)) else (value,):
+        try:
+            value = _as_type(self.type, value)
+        except TypeError:
+            raise TypeError(f"set '{self.name}', a port of type {self.type}, to {value!r}") from None
+        for number in value if isinstance(value, list) else (value,):
             if isinstance(number, float) and not math.isfinite(number):
                 raise ValueError(f"the port '{self.name}' cannot be {number}: expected a finite number")
         if self.name not in leaf._unbound:  # else it is discarded, as in C++
@@ -222,11 +257,14 @@ class _Leaf:
         "The ports that an element with these constants has in addition to those of the class, by their names."
         if not cls.more_ports:
             return {}
+        given = {name: _received(cls._ports[name], value) for name, value in fixed.items() if name in cls._ports}
         return {name: _Attribute(name, *(it if isinstance(it, tuple) else (it, None)))
-                for name, it in cls.describe(**fixed).items()}
+                for name, it in cls.describe(**given).items()}
 
     def log(self, text, level="info"):
-        self._log(str(text), level)
+        if level not in _LEVELS:
+            raise ValueError(f"the level is {level!r}, expected debug, info or warning")
+        self._log(_text(text, 32768), level)
 
     def _log(self, text, level):
         say(leaf=self._number, log=text, level=level)
@@ -280,13 +318,30 @@ def _status(leaf, result):
     return status
 
 
-def _progress(leaf):
+def _done(leaf):
     done = leaf.progress()
     if not hasattr(done, "__float__"):
         raise TypeError(f"progress returned {done!r}, expected a number from 0 to 1")
     if not math.isfinite(done):
         raise ValueError(f"progress returned {float(done)}, expected a number from 0 to 1")
     return float(done)
+
+
+def _progress(leaf):
+    return {"progress": _done(leaf)} if hasattr(leaf, "progress") else {}
+
+
+# A leaf in the process of the run does what follows, too: lockstep/_leaves.py. What is done here is the same in both.
+
+_LEVELS = ("debug", "info", "warning")
+
+
+def _received(port, value):
+    "The value of a port that lockstep has sent, where 1 may be a float."
+    try:
+        return None if value is None else _as_type(port.type, value)
+    except TypeError:
+        raise TypeError(f"the port '{port.name}' is of type {port.type}, not {value!r}") from None
 
 
 def _new(cls, number, seed, fixed={}, **facts):
@@ -301,6 +356,70 @@ def _new(cls, number, seed, fixed={}, **facts):
     return leaf
 
 
+def _begin(leaf):
+    "Before the first function of an activation."
+    leaf._set, leaf._has_started, leaf._has_ports = {}, False, True
+
+
+def _call(leaf, function):
+    if hasattr(leaf, function):
+        getattr(leaf, function)()
+
+
+def _start(leaf):
+    _begin(leaf)
+    _call(leaf, "start")
+    leaf._has_started = True
+
+
+def _tick(leaf):
+    """The status after a tick, why it is so or what it waits for, the progress of a leaf that runs, and the values that
+    were set since the last tick."""
+    try:
+        result = leaf.tick()
+    except Failed as failed:
+        result = failed
+    reason = _text(result) if isinstance(result, (Failed, Waiting)) else ""
+    if isinstance(result, (Failed, Waiting)):
+        result = False if isinstance(result, Failed) else None
+    status = _status(leaf, result)
+    progress = _progress(leaf) if status == "running" else {}
+    values, leaf._set = leaf._set, {}
+    return status, reason, progress, values
+
+
+def _halt(leaf):
+    if leaf._has_started:  # there is nothing to halt when its start has failed
+        _call(leaf, "halt")
+
+
+def _pace(leaf, factor):
+    "The pace that it takes up when it is to have this one."
+    taken = leaf.set_pace(factor)
+    if taken is None:
+        return factor
+    if isinstance(taken, bool) or not hasattr(taken, "__float__") or math.isnan(taken):
+        raise ValueError(f"set_pace returned {taken!r}, expected None, or the least pace that it can have")
+    return min(max(float(taken), factor), 1.0)
+
+
+def _kept(leaf):
+    "The text that a leaf keeps for another process."
+    return json.dumps(leaf.save(), separators=(",", ":"), allow_nan=False)
+
+
+def _restore(leaf, kept, cut):
+    "Of a leaf that has begun: whether it continues with this text, and then its progress."
+    try:
+        goes_on = leaf.restore(json.loads(kept), cut)
+    except Failed:
+        return "cannot continue", {}
+    if goes_on not in (True, False):
+        raise ValueError(f"restore returned {goes_on!r}, expected True (it continues) or False (it starts again)")
+    leaf._has_started = bool(goes_on)
+    return ("continues", _progress(leaf)) if goes_on else ("starts again", {})
+
+
 class _Server:
     "One process: its leaves by their numbers, and an answer to each request."
 
@@ -310,38 +429,28 @@ class _Server:
 
     def create(self, number, request):
         leaf = _new(_classes[request["type"]], number, request["seed"], request.get("fixed", {}),
-                    **{name: request[name] for name in ("name", "path", "clock", "period")})
+                    period=float(request["period"]), **{name: request[name] for name in ("name", "path", "clock")})
         leaf._unbound = request.get("unbound", ())
         self.leaves[number] = leaf
         leaf.__init__()
         say(leaf=number, done=True)
 
-    def start(self, leaf, request):
-        self.broken.discard(leaf._number)
-        self.begin(leaf, request)
-        self.call(leaf, "start")
-        leaf._has_started = True
-
     def begin(self, leaf, request):
-        leaf._values, leaf._set, leaf._has_started, leaf._has_ports = {}, {}, False, True
-        leaf._kept = None
+        self.broken.discard(leaf._number)
+        leaf._values, leaf._kept = {}, None
         self.update(leaf, request)
 
-    def restore(self, leaf, request):
-        self.broken.discard(leaf._number)
+    def start(self, leaf, request):
         self.begin(leaf, request)
-        cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks", "on_resume") if name in request})
-        try:
-            goes_on = _goes_on(leaf, request["kept"], cut)
-        except Failed:
-            return say(leaf=leaf._number, done=True, after_cut="cannot continue")
-        leaf._has_started = goes_on
-        answer = {"after_cut": "continues", **self.progress(leaf)} if leaf._has_started else {}
-        say(leaf=leaf._number, done=True, **answer)
+        _start(leaf)
 
-    @staticmethod
-    def progress(leaf):
-        return {"progress": _progress(leaf)} if hasattr(leaf, "progress") else {}
+    def restore(self, leaf, request):
+        self.begin(leaf, request)
+        _begin(leaf)
+        cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks", "on_resume") if name in request})
+        cut.gap = float(cut.gap)
+        after_cut, progress = _restore(leaf, request["kept"], cut)
+        say(leaf=leaf._number, done=True, after_cut=after_cut, **progress)
 
     @staticmethod
     def kept(leaf):
@@ -356,54 +465,44 @@ class _Server:
 
     def tick(self, leaf, request):
         self.update(leaf, request)
-        try:
-            result = leaf.tick()
-        except Failed as failed:
-            result = failed
-        reason = str(result) if isinstance(result, (Failed, Waiting)) else ""
-        if isinstance(result, (Failed, Waiting)):
-            result = False if isinstance(result, Failed) else None
-        answer = {"leaf": leaf._number, "status": _status(leaf, result)}
+        status, reason, progress, values = _tick(leaf)
+        answer = {"leaf": leaf._number, "status": status}
         if reason:
-            answer["reason"] = reason.encode("utf-8", "replace").decode()  # a name of a file may be no UTF-8
-        answer |= self.progress(leaf)
-        if answer["status"] == "running":
+            answer["reason"] = reason
+        answer |= progress
+        if status == "running":
             answer |= self.kept(leaf)
-        if leaf._set:
-            answer["set"], leaf._set = leaf._set, {}
+        if values:
+            answer["set"] = {name: _utf8(value) for name, value in values.items()}
         say(**answer)
 
     def halt(self, leaf, request):
-        if leaf._has_started:  # there is nothing to halt when its start has failed
-            self.call(leaf, "halt")
+        _halt(leaf)
         say(leaf=leaf._number, done=True)
 
     def pause(self, leaf, request):
         if leaf._number not in self.broken:
-            self.call(leaf, "pause")
+            _call(leaf, "pause")
         if leaf._pauses():
             say(leaf=leaf._number, done=True, **self.kept(leaf))
 
     def resume(self, leaf, request):
-        self.call(leaf, "resume")
+        _call(leaf, "resume")
 
     def set_pace(self, leaf, request):
-        taken = leaf.set_pace(request["factor"])
-        if taken is not None and taken > request["factor"]:
+        factor = float(request["factor"])
+        taken = _pace(leaf, factor)
+        if taken > factor:
             say(leaf=leaf._number, pace=taken)
 
     def destroy(self, leaf, request):
         del self.leaves[leaf._number]
 
     @staticmethod
-    def call(leaf, function):
-        if hasattr(leaf, function):
-            getattr(leaf, function)()
-
-    @staticmethod
     def update(leaf, request):
-        if "ports" in request:
-            leaf._values.update(request["ports"])
+        ports = request.get("ports", {})
+        own = leaf._own_ports
+        leaf._values.update({name: _received(own[name], value) for name, value in ports.items() if name in own})
 
     @staticmethod
     def describe(request):
@@ -421,8 +520,8 @@ class _Server:
             if do == "create":
                 return self.create(number, request)
             leaf = self.leaves[number]
-            leaf.now = request.get("now", leaf.now)
-            if number in self.broken and do in ("tick", "resume"):
+            leaf.now = float(request.get("now", leaf.now))
+            if number in self.broken and do in ("tick", "resume", "set_pace"):
                 return None
             handler = getattr(self, do, None)  # requests of a later version are ignored
             return handler and handler(leaf, request)
@@ -436,11 +535,18 @@ def _blame(error, folder=None):
     mine = [frame for frame in traceback.extract_tb(error.__traceback__)
             if frame.filename != __file__ and os.path.dirname(frame.filename) != folder]
     where = f" ({os.path.basename(mine[-1].filename)}:{mine[-1].lineno})" if mine else ""
-    return f"{type(error).__name__}: {error}{where}"
+    return _text(f"{type(error).__name__}: {error}{where}")
 
 
 def _refusal(error):
-    return str(error) if isinstance(error, Refused) else _blame(error)
+    return _text(error) if isinstance(error, Refused) else _blame(error)
+
+
+def _utf8(value):
+    "A value without what a line cannot have: bytes of a name of a file that are no UTF-8."
+    if isinstance(value, list):
+        return [_utf8(it) for it in value]
+    return value.encode("utf-8", "surrogateescape").decode("utf-8", "replace") if isinstance(value, str) else value
 
 
 _MOST = 1 << 20  # bytes of a line

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <variant>
 #include <vector>
 
@@ -21,6 +23,7 @@ void append_item(std::string& to, Flag item) {
 template <IsNumber Number>
 void append_item(std::string& to, Number item) {
   append_text(item, to);
+  if (item == 0 && std::signbit(static_cast<double>(item))) to += ".0";  // -0 is a whole number
 }
 void append_item(std::string& to, const std::string& item) {
   append_json(to, item);
@@ -87,6 +90,17 @@ Value value_of(JsonValue value, ValueType type) {
 }
 
 }  // namespace
+
+bool is_same(const Value& value, const Value& other) {
+  if (!(value == other)) return false;
+  const auto has_sign = [](double it) { return std::signbit(it); };
+  if (const auto* number = std::get_if<double>(&value)) {
+    return has_sign(*number) == has_sign(std::get<double>(other));
+  }
+  const auto* const list = std::get_if<std::vector<double>>(&value);
+  return list == nullptr ||
+         std::ranges::equal(*list, std::get<std::vector<double>>(other), {}, has_sign, has_sign);
+}
 
 Value port_value(const lockstep_caller& caller, std::uint32_t port) {
   const Value* const value = read_port(caller, port);

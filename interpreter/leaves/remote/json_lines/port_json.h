@@ -13,6 +13,9 @@ namespace lockstep::host {
 // The value of the port; NoValue when it has none. After a refusal the caller has an error.
 Value port_value(const lockstep_caller& caller, std::uint32_t port);
 
+// Equal, where -0.0 is not 0.0.
+bool is_same(const Value& value, const Value& other);
+
 // Nothing is "null".
 void append_json_value(std::string& to, const Value& value);
 

@@ -107,10 +107,10 @@ void ProgramLeaf::start() {
   if (!is_condition_) conversation_.forget(number_);
 }
 
-// Until the next answer, the reason is that of the last one.
+// Until the next answer, the reason is that of the last one. A fault has its own text.
 lockstep_status ProgramLeaf::tick() {
   const lockstep_status status = result();
-  if (!reason_.empty()) take_reason(caller_, Shortened(reason_));
+  if (!reason_.empty() && !has_error()) take_reason(caller_, Shortened(reason_));
   return status;
 }
 
@@ -216,6 +216,8 @@ void ProgramLeaf::set_ports(std::string line) {
     }
     const auto index = static_cast<std::uint32_t>(port - caller_.ports.begin());
     if (std::string why = set_port(caller_, index, value); wrong.empty()) wrong = std::move(why);
+    if (index >= sent_.size() || is_same(port_value(caller_, index), sent_[index])) return;
+    sent_[index] = Object();  // which none is: the program has its own value now
   };
   try {
     reader_.read(line, [&](JsonObject object) {

@@ -79,7 +79,7 @@ Request& Request::ports(const lockstep_caller& caller, std::vector<Value>& sent)
   const char* before = ",\"ports\":{";
   for (std::uint32_t port = 0; port < caller.ports.size(); ++port) {
     Value value = port_value(caller, port);
-    if (value == sent[port]) continue;
+    if (is_same(value, sent[port])) continue;
     sent[port] = std::move(value);
     text_ += before;
     this->port(caller, port, sent[port]);

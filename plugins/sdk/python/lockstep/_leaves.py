@@ -46,8 +46,9 @@ class _Host:
 
     def __init__(self, table):
         self.now, self.set_error, self.random_bits = table.now, table.set_error, table.random_bits
-        self.tick_period = table.tick_period
+        self.tick_period, self.log = table.tick_period, table.log
         self.place = cast(table.get_extension(b"lockstep.place"), POINTER(native.Place)).contents
+        self.say_reason = cast(table.get_extension(b"lockstep.reason"), POINTER(native.Reason)).contents.say
         self.getters = {name: getattr(table, "get_" + native.function_name(it)) for name, it in native.TYPES.items()}
         self.setters = {name: getattr(table, "set_" + native.function_name(it)) for name, it in native.TYPES.items()}
 
@@ -86,16 +87,22 @@ class _Class:
         self.table = native.sized(
             native.LeafType, kind=kind, id=native.bytes_of(fact["id"]), doc=native.bytes_of(fact["doc"]),
             create=native.CREATE(self.create), destroy=native.CALL(self.destroy),
-            start=native.CALL(self.caller_of(self.start)),
+            start=native.CALL(self.caller_of(lockstep_leaf._start)),
             tick=native.TICK(self.caller_of(self.tick, native.RUNNING)), flags=_REAL_TIME if fact.get("real_time") else 0)
-        for name in ("halt", "pause", "resume"):
-            if hasattr(cls, name):
-                setattr(self.table, name, native.CALL(self.caller_of(_do(name))))
-        if hasattr(cls, "progress"):
-            self.table.progress = native.PROGRESS(self.caller_of(lockstep_leaf._progress, 0.0))
+        self.table.halt = native.CALL(self.caller_of(lockstep_leaf._halt))
+        if "pause" in fact:
+            self.table.pause = native.CALL(self.caller_of(lambda leaf: lockstep_leaf._call(leaf, "pause")))
+            self.table.resume = native.CALL(self.caller_of(lambda leaf: lockstep_leaf._call(leaf, "resume")))
+        if "progress" in fact:
+            self.table.progress = native.PROGRESS(self.caller_of(lockstep_leaf._done, 0.0))
+        if "set_pace" in fact:
+            self.table.set_pace = native.SET_PACE(self.caller_of(lockstep_leaf._pace, 1.0))
         if "restore" in fact:
             self.table.save = native.SAVE(self.caller_of(self.save, 0))
-            self.table.restore = native.RESTORE(self.caller_of(self.restore, native.STARTS_AGAIN))
+            self.table.restore = native.RESTORE(self.caller_of(self.restore, 0))
+        said = [(native.bytes_of(word), native.bytes_of(value)) for word, value in fact.get("behavior", {}).items()]
+        if said:
+            self.table.behavior_count, self.table.behavior = len(said), (native.Behavior * len(said))(*said)
         self.functions = native.LeafType.from_buffer_copy(self.table)
         self.elements[0].give_ports(self.table)
         if "more_ports" in fact:
@@ -141,7 +148,7 @@ class _Class:
             leaf._values = _Ports(leaf, host, caller, element.ports, state)
             leaf._unbound = [name for name, (index, _) in element.ports.items()
                              if not _is_key(host.place.given(caller, index) or b"")]
-            leaf._log = state.log_of(leaf.path)
+            leaf._log = _Log(leaf)
             self.leaves[number] = leaf
             leaf.__init__()
             state.inside = False
@@ -152,7 +159,8 @@ class _Class:
     def destroy(self, number):
         leaf = self.leaves.pop(number, None)
         if leaf is not None:  # which the program may have kept
-            leaf._values, leaf._caller = {}, None
+            leaf._values = {}
+            leaf._log.end()
 
     # Of Ctrl-C: an exception may come out of any line of the author's, and of none outside of try.
     def caller_of(self, function, otherwise=None):
@@ -172,63 +180,104 @@ class _Class:
                 return otherwise
         return call
 
-    def start(self, leaf):
-        leaf._set, leaf._has_ports = {}, True
-        if hasattr(leaf, "start"):
-            leaf.start()
-
     def save(self, leaf, to, room):
         kept = lockstep_leaf._kept(leaf).encode()
         ctypes.memmove(to, kept, min(len(kept), room))
         return len(kept)
 
     def restore(self, leaf, kept, size, cut):
-        leaf._set, leaf._has_ports = {}, True
+        lockstep_leaf._begin(leaf)
         cut = cut.contents
         wants = {native.SUCCESS: "success", native.FAILURE: "failure"}.get(cut.on_resume, "restart")
         cut = lockstep_leaf.Cut(cut.power, cut.held, cut.gap, cut.lost_ticks, wants)
-        try:
-            goes_on = lockstep_leaf._goes_on(leaf, ctypes.string_at(kept, size), cut)
-        except lockstep_leaf.Failed:
-            return native.CANNOT_CONTINUE
-        return native.CONTINUES if goes_on else native.STARTS_AGAIN
+        after_cut, _ = lockstep_leaf._restore(leaf, ctypes.string_at(kept, size), cut)
+        return native.AFTER_CUT.index(after_cut)
 
     def tick(self, leaf):
-        result = _RESULTS[lockstep_leaf._status(leaf, leaf.tick())]
-        if leaf._set:
-            values, leaf._set = leaf._set, {}
-            for name, value in values.items():
-                self.set_port(leaf, name, value)
-        return result
+        status, reason, _, values = lockstep_leaf._tick(leaf)
+        if reason:
+            leaf._host.say_reason(leaf._caller, reason.encode())
+        for name, value in values.items():
+            self.set_port(leaf, name, value)
+        return _RESULTS[status]
 
     def set_port(self, leaf, name, value):
         index, type_ = leaf._values.ports[name]
-        try:
-            done = type_.write(leaf._host.setters[type_.name], leaf._caller, index, value=value)
-        except TypeError:
-            raise TypeError(f"set '{name}', a port of type {type_.name}, to {value!r}") from None
+        done = type_.write(leaf._host.setters[type_.name], leaf._caller, index, value=value)
         # Of two errors the first counts: the host's.
         if not done:
             leaf._host.set_error(leaf._caller, f"set '{name}', which is not bound to an entry that takes it".encode())
 
 
+_BLANKS = " \t\r\n"
+_FLAGS = {**dict.fromkeys(("1", "true", "True", "TRUE"), True), **dict.fromkeys(("0", "false", "False", "FALSE"), False)}
+_NUMBER = re.compile(r"(?:\+(?!-))?(-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)")
+
+
 def _typed(type_, text):
-    "A constant of a tree, as a program gets it."
+    "A constant of a tree, as lockstep reads it; None if it is no value of the type."
+    if type_ == "string":
+        return text
+    if type_ == "list of string":
+        return _texts(text)
     if type_.startswith("list of "):
-        items = text.split(";") if type_ == "list of string" else re.split(r"[;,\s]+", text)
-        return [_typed(type_[len("list of "):], it) for it in items if it]
-    read = {"bool": lambda it: it.strip() in ("true", "1"), "int": int, "double": float, "string": str}
-    return read[type_](text)
+        items = [_typed(type_[len("list of "):], it) for it in re.split("[;, \t\r\n]+", text) if it]
+        return None if None in items else items
+    text = text.strip(_BLANKS)
+    if type_ == "bool":
+        return _FLAGS.get(text)
+    number = _NUMBER.fullmatch(text)
+    try:
+        return number and lockstep_leaf._as_type(type_, (int if type_ == "int" else float)(number[1]))
+    except ValueError:
+        return None
+
+
+def _texts(text):
+    r"The texts of `a;b\;c`. Blanks around each do not count, unless they come after a backslash."
+    items, place, end = [], 0, len(text.rstrip(_BLANKS))
+    while place < end:
+        item, kept = "", 0
+        while place < len(text):
+            c, place = text[place], place + 1
+            if c == ";":
+                break
+            is_escaped = c == "\\" and place < len(text)
+            if c in _BLANKS and not item:
+                continue
+            item += text[place] if is_escaped else c
+            place += is_escaped
+            if is_escaped or c not in _BLANKS:
+                kept = len(item)
+        items.append(item[:kept])
+    return items
 
 
 def _is_key(given):
     return given.startswith(b"{") and given.endswith(b"}") and len(given) > 2
 
 
-def _do(name):
-    def do(leaf):
-        getattr(leaf, name)()
-    return do
+class _Log:
+    "What a leaf logs is a line of its run, from any thread, until the leaf is destroyed."
+
+    def __init__(self, leaf):
+        self.host, self.caller, self.state, self.path = leaf._host, leaf._caller, leaf._state, leaf.path
+        self.guard = threading.RLock()  # of caller
+
+    def end(self):
+        with self.guard:
+            self.caller = None
+
+    def __call__(self, text, level):
+        if self.state.is_ours():
+            return self.state.outside(self.write, text, level)
+        with self.guard:
+            self.write(text, level)
+
+    def write(self, text, level):
+        if self.caller is None:
+            return self.state.log(self.path, level, text)
+        self.host.log(self.caller, native.LEVELS.index(level), text.encode())
 
 
 def _port(fact):

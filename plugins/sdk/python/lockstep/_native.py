@@ -4,13 +4,15 @@ import functools
 from ctypes import (CFUNCTYPE, POINTER, Structure, byref, c_bool, c_char_p, c_double, c_int32, c_int64, c_size_t,
                     c_uint8, c_uint32, c_uint64, c_void_p)
 
+from lockstep_leaf import _LEVELS as LEVELS
+from lockstep_leaf import _as_bool, _as_float, _as_int, _as_str
+
 from ._error import Error
 from ._program import library
 
 RUNNING, SUCCESS, FAILURE, SKIPPED = 1, 2, 3, 4
 STATUSES = ("idle", "running", "success", "failure", "skipped")
 REASONS = ("completed", "fault", "timeout", "max_ticks", "signal", "overrun")
-LEVELS = ("debug", "info", "warning")
 SEVERITIES = ("error", "warning", "note")
 
 
@@ -57,10 +59,19 @@ class Place(Structure):
                 ("data", CFUNCTYPE(c_void_p, c_void_p))]
 
 
+class Reason(Structure):
+    _fields_ = [("struct_size", c_uint32), ("say", CFUNCTYPE(None, c_void_p, c_char_p))]
+
+
+class Behavior(Structure):
+    _fields_ = [("word", c_char_p), ("value", c_char_p)]
+
+
 CREATE = CFUNCTYPE(c_void_p, POINTER(Host), c_void_p, c_void_p)
 CALL = CFUNCTYPE(None, c_void_p)
 TICK = CFUNCTYPE(c_int32, c_void_p)
 PROGRESS = CFUNCTYPE(c_double, c_void_p)
+SET_PACE = CFUNCTYPE(c_double, c_void_p, c_double)
 
 
 class FixedText(Structure):
@@ -78,7 +89,7 @@ class Cut(Structure):
 
 SAVE = CFUNCTYPE(c_size_t, c_void_p, c_void_p, c_size_t)
 RESTORE = CFUNCTYPE(c_int32, c_void_p, c_void_p, c_size_t, POINTER(Cut))
-STARTS_AGAIN, CONTINUES, CANNOT_CONTINUE = 0, 1, 2
+AFTER_CUT = ("starts again", "continues", "cannot continue")
 DESCRIBE = CFUNCTYPE(c_void_p, POINTER(FixedText), c_uint32, POINTER(Refusal))
 
 
@@ -88,8 +99,8 @@ class LeafType(Structure):
                 ("start", CALL), ("tick", TICK), ("halt", CALL), ("pause", CALL), ("resume", CALL),
                 ("progress", PROGRESS), ("get_extension", c_void_p), ("flags", c_uint64), ("min_children", c_uint32),
                 ("max_children", c_uint32), ("start_unreset", c_void_p), ("behavior_count", c_uint32),
-                ("behavior", c_void_p), ("more_ports", c_char_p), ("describe", DESCRIBE), ("data", c_void_p),
-                ("set_pace", c_void_p), ("save", SAVE), ("restore", RESTORE)]
+                ("behavior", POINTER(Behavior)), ("more_ports", c_char_p), ("describe", DESCRIBE), ("data", c_void_p),
+                ("set_pace", SET_PACE), ("save", SAVE), ("restore", RESTORE)]
 
 
 class Plugin(Structure):
@@ -228,31 +239,8 @@ def bytes_of(text):
     return data
 
 
-def _as_bool(value):
-    if isinstance(value, bool):
-        return value
-    raise TypeError
-
-
-def _as_int(value):
-    if isinstance(value, bool) or not hasattr(value, "__index__"):
-        raise TypeError
-    value = value.__index__()
-    if not -2**63 <= value < 2**63:
-        raise ValueError(f"{value} does not fit 64 bits")
-    return value
-
-
-def _as_double(value):
-    if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
-        raise TypeError
-    return float(value)
-
-
 def _as_text(value):
-    if isinstance(value, str):
-        return value.encode("utf-8", "surrogateescape")
-    raise TypeError
+    return _as_str(value).encode("utf-8", "surrogateescape")
 
 
 class _Scalar:
@@ -301,8 +289,8 @@ class _List(_Scalar):
 
 TYPES = {it.name: it for it in (
     _Scalar(1, "bool", c_bool, _as_bool), _Scalar(2, "int", c_int64, _as_int),
-    _Scalar(3, "double", c_double, _as_double), _String(4, "string", None, _as_text),
-    _List(5, "list of double", c_double, _as_double), _List(6, "list of int", c_int64, _as_int),
+    _Scalar(3, "double", c_double, _as_float), _String(4, "string", None, _as_text),
+    _List(5, "list of double", c_double, _as_float), _List(6, "list of int", c_int64, _as_int),
     _List(7, "list of bool", c_bool, _as_bool), _List(8, "list of string", Text, _as_text))}
 OBJECT, NUMBER, ANY = 9, 100, 101
 

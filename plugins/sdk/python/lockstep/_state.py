@@ -76,11 +76,26 @@ class State:
             self.thrown = self.thrown or error
         elif self.cause is None:
             self.cause = error
-        return leaves_.blame(error).replace("\0", "").encode("utf-8", "replace")
+        return leaves_.blame(error).encode()
+
+    def is_ours(self):
+        "This thread is in a call."
+        return threading.get_ident() == self.thread
+
+    def outside(self, work, *arguments):
+        "Of a leaf that calls the library, which may call Python: out of that no exception comes."
+        was, self.inside = self.inside, False
+        work(*arguments)
+        self.inside = was
+        if was and self.pending is not None:
+            pending, self.pending = self.pending, None
+            self.handler(*pending)
+        if was and self.thrown is not None and not isinstance(self.thrown, Exception):
+            raise self.thrown
 
     def keep(self, work):
         "Of what is no leaf. A leaf may log in its own thread, where no signal comes."
-        is_ours = threading.get_ident() == self.thread
+        is_ours = self.is_ours()
         try:
             if is_ours:
                 self.inside = True
@@ -91,13 +106,6 @@ class State:
             if is_ours:
                 self.inside = False
             self.thrown = self.thrown or error
-
-    def log_of(self, who):
-        def log(text, level):
-            if level not in native.LEVELS:
-                raise ValueError(f"the level is {level!r}, expected debug, info or warning")
-            self.log(who, level, text)
-        return log
 
     # What lockstep calls.
 
