@@ -124,6 +124,24 @@ class Pass(Action):
         return True if self.ticks == 2 else None
 
 
+class Defaults(Action):
+    "Logs its defaults, which it needs as they are here."
+    none: list[str] = []
+    empty: list[str] = [""]
+    blanks: list[str] = [" x ", "\t", "y z", ""]
+    marks: list[str] = ["p;q", "r\\", "\\;", "{x}"]
+    numbers: list[float] = (1e300, -0.0, 3)
+    real: float = 1e-7
+    whole: int = 2**62
+    text: str = " lead \\ ;"
+
+    def tick(self):
+        values = [self.none, self.empty, self.blanks, self.marks, self.numbers, self.real, self.whole, self.text]
+        self.log(repr(values))
+        return values == [[], [""], [" x ", "\t", "y z", ""], ["p;q", "r\\", "\\;", "{x}"], [1e300, 0, 3], 1e-7, 2**62,
+                          " lead \\ ;"]
+
+
 class Sets(Action):
     "Sets an output to what it evaluates, and logs what it reads then and later."
     value: str

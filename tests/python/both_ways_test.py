@@ -131,6 +131,9 @@ class BothWays(unittest.TestCase):
                 if port not in ("nothing", "value"):
                     self.both(element("Sets", port=port, value=value, **{port: "{it}"}))
 
+    def test_defaults(self):
+        self.assertEqual(self.both(element("Defaults"))[-1]["end"]["result"], "success")
+
     def test_what_describe_is_given(self):
         self.assertIn("'reals': [10.0, 2.0, -0.0], 'texts': ['a', 'b;c', '', ' ', '\\\\']", self.logs(element(
             "Form", flag=" TRUE ", whole="+4", real="-0", text=" x ", flags="1, 0", wholes="1;2 3", reals="1e1,2;-0;",

@@ -428,6 +428,13 @@ class TreesTest(unittest.TestCase):
         with self.assertRaisesRegex(lockstep.Error, "^error: unknown argument 'm'"):
             lockstep.Tree(text=text, leaves=Count, main_tree="A", args={"m": 6})
 
+    def test_texts_of_a_list_are_given_as_they_are(self):
+        for texts in ([], [""], ["", ""], [" x "], ["a", "b;c", "\\", "\t"], ["x", ""]):
+            with tree('<Count words="{l}"/>', set={"l": texts}) as it:
+                self.assertEqual(it.entries["l"], texts)
+        with self.assertRaisesRegex(ValueError, "the grid of 'g' has the value 'a,b', which --grid splits at its commas"):
+            lockstep.study("tree.xml", runs=1, grid={"g": ["a,b"]})
+
     def test_limits_of_a_run(self):
         with tree('<Count ticks="100000"/>', period=0.001) as it:
             end = it.run(max_ticks=10)

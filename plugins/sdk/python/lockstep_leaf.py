@@ -155,9 +155,15 @@ def _plain(value):
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (list, tuple)):
-        return ";".join(it.replace("\\", "\\\\").replace(";", "\\;") if isinstance(it, str) else _plain(it)
-                        for it in value)
+        return ";".join(_plain_item(it) if isinstance(it, str) else _plain(it) for it in value) + (
+            ";" if len(value) > 0 and value[-1] == "" else "")
     return str(value)
+
+
+def _plain_item(text):
+    "A text of a list: its first and last character may be a blank that counts."
+    ends = (0, len(text) - 1)
+    return "".join("\\" + it if it in "\\;" or (at in ends and it in " \t\r\n") else it for at, it in enumerate(text))
 
 
 # What a leaf has in addition to its ports.
@@ -180,7 +186,7 @@ class _Attribute:
         self.fact = {"name": name, "type": self.type, "direction": self.direction}
         if port.default is not None:
             default = port.default
-            self.fact["default"] = _plain(default) if isinstance(default, list) else default
+            self.fact["default"] = _plain(default) if isinstance(default, (list, tuple)) else default
         if port.optional:
             self.fact["optional"] = True
         if directed.fixed:

@@ -83,12 +83,20 @@ def run(tree, args=None, *, set=None, seed=0, clock="virtual", plugins=(), plugi
 def study(tree, *, runs=None, grid=None, args=None, measure=(), out=None, plots=False, **options):
     """Makes a study, and returns a row for each run, as read_study does. `grid` has lists of values:
     {"noise": [0, 0.05]}. Without `out` its directory is temporary."""
-    axes = {name: ",".join(map(_plain, values)) for name, values in (grid or {}).items()}
+    axes = {name: _axis(name, values) for name, values in (grid or {}).items()}
     words = _options(runs=runs, grid=axes, arg=args or {}, measure=measure, no_plots=not plots, **options)
     with tempfile.TemporaryDirectory() as directory:
         where = out or os.path.join(directory, "study")
         _call(["study", tree, "--out", where, *words])
         return read_study(where)
+
+
+def _axis(name, values):
+    texts = [_plain(it) for it in values]
+    for text in texts:
+        if "," in text:
+            raise ValueError(f"the grid of '{name}' has the value {text!r}, which --grid splits at its commas")
+    return ",".join(texts)
 
 
 def read(recording):
