@@ -54,10 +54,12 @@ void EventCounts::take(const PacketRing& ring, std::uint64_t from, std::uint64_t
   });
 }
 
-// True if it has the whole state: what it does not name is idle.
+// True if it has the whole state: what it does not name is idle. While the run stands, the last
+// tick comes again for each listener that wants the whole state; what happened in it comes once.
 bool EventCounts::take_tick(const PacketRing& ring, std::uint64_t position,
                             const PacketHead& head) {
-  ++tick_;
+  ++packet_;
+  const bool is_again = std::exchange(last_, head.tick) == head.tick;
   bool is_full = false;
   moments_.clear();
   if (head.text != empty_end_.size()) {
@@ -67,13 +69,13 @@ bool EventCounts::take_tick(const PacketRing& ring, std::uint64_t position,
     is_full = end.ends_with(json_lines::kFullEnd);
     reader_.read(std::move(end), *this);
   }
-  const bool has_moments = !moments_.empty();
+  const bool has_moments = !moments_.empty() && !is_again;
   if (has_moments) settle(head.tick);
   ring.each_node(position, head.nodes,
                  [&](const NodeChange& change) { take_node(change, head.tick); });
   if (is_full) {
     for (NodeIndex node = 0; node < nodes_.size(); ++node) {
-      if (nodes_[node].named != tick_) take_node({.node = node}, head.tick);
+      if (nodes_[node].named != packet_) take_node({.node = node}, head.tick);
     }
   }
   if (has_moments) take_moments(head.tick);
@@ -125,7 +127,7 @@ void EventCounts::take_moments(std::uint64_t tick) {
 // A line with the whole state names nodes that are as they were.
 void EventCounts::take_node(const NodeChange& change, std::uint64_t tick) {
   Node& node = at(nodes_, change.node);
-  node.named = tick_;
+  node.named = packet_;
   if (node.state == change.state) return;
   node.counts = node.until(tick);
   const bool was_running = status_in(node.state) == Status::Running;

@@ -55,7 +55,7 @@ class EventCounts {
   struct Node {
     Counts counts{}, settled{};
     std::uint64_t since = 0;  // the tick with which it became as it is
-    std::uint64_t named = 0;  // in which of the ticks that were taken, the last time
+    std::uint64_t named = 0;  // in which of the packets that were taken, the last time
     std::uint8_t state = 0;   // as in NodeChange
 
     // Before this tick.
@@ -80,7 +80,8 @@ class EventCounts {
   std::vector<MomentChange> moment_changes_;
   std::vector<NodeTotals> more_;
   std::vector<NodeState> before_, first_moment_, moment_;
-  std::uint64_t tick_ = 0;  // how many were taken
+  std::uint64_t packet_ = 0;                // how many ticks were taken, each as often as it came
+  std::optional<std::uint64_t> last_ = {};  // the number of the last tick
 };
 
 }  // namespace lockstep::host

@@ -9,11 +9,13 @@
 #include <sstream>
 #include <thread>
 
+#include "dialect/btcpp/rules.h"
 #include "record/json_lines.h"
 #include "record/write/recorder.h"
 #include "run/shape_of.h"
 #include "support/json.h"
 #include "support/text.h"
+#include "support/tree_text.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
@@ -184,6 +186,36 @@ TEST_CASE("a node that fails in each tick has failed as often as there were tick
   const int tick = line["tick"];
   CHECK(tick > 50);
   CHECK(line["counts"][0] == json{1, 0, tick + 1, 0, 0, 0, 0});
+}
+
+// Each listener that comes while the run stands gets the whole state, which is that of the last
+// tick.
+TEST_CASE("a run that stands has had no more, however often the whole state is asked for") {
+  WatchedRun run(
+      test::tree_from_text("KeepRunningUntilFailure(Repeat[num_cycles=3](a))", btcpp::kRules),
+      "a=S");
+  g_now = std::chrono::seconds(1);
+  LineFeed feed(shape_of(run.run.tree()), {.tree_file = "a.xml", .rate_hz = 10}, now_of_test);
+  struct Listeners final : Observer {
+    explicit Listeners(LineFeed& it) : feed(it) {}
+    void after_tick(const Moment& moment, const TickReport&) override {
+      for (int i = 0; i < 3; ++i) {
+        feed.want_full();
+        feed.standing(moment);
+        std::string lines;
+        feed.take(lines);
+        counts.push_back(test::parse_json(lines.substr(lines.rfind("{\"tick\""))).at("counts"));
+      }
+    }
+    LineFeed& feed;
+    std::vector<json> counts;
+  } listeners(feed);
+  run.watch({&feed, &listeners}, 4);
+  REQUIRE(listeners.counts.size() == 12);
+  for (std::size_t i = 0; i < listeners.counts.size(); ++i) {
+    CAPTURE(i);
+    CHECK(listeners.counts[i].back() == json{2, 3 * (i / 3 + 1), 0, 0, 0, 0, 0});
+  }
 }
 
 TEST_CASE("lines that find no room are counted, and the next one has what they had") {
