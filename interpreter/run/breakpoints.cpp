@@ -4,12 +4,13 @@
 #include <utility>
 
 #include "engine/synchronized.h"
+#include "trace/completion.h"
 
 namespace lockstep::host {
 
 void Breakpoints::set(Ticker& ticker, Breakpoint breakpoint) {
   remove(breakpoint);
-  Watched watched{.breakpoint = breakpoint, .before = ticker.status(breakpoint.node)};
+  Watched watched{.breakpoint = breakpoint, .before = ticker.node_state(breakpoint.node)};
   if (breakpoint.when == Breakpoint::When::Barrier) {
     for_each_child(ticker.tree(), breakpoint.node,
                    [&](NodeIndex child) { watched.were_held.push_back(ticker.held(child)); });
@@ -42,17 +43,18 @@ bool Breakpoints::is_reached(Ticker& ticker, Watched& watched) {
   moments.each_part(moment_, [&](std::span<const NodeState> states, bool, bool) {
     if (is_reached(states[node], watched)) is_any = true;
   });
+  watched.before = ticker.node_state(node);  // of the whole tick
   return is_any;
 }
 
 bool Breakpoints::is_reached(NodeState state, Watched& watched) {
-  const Status now = state.status(), before = std::exchange(watched.before, now);
-  const bool is_as_before = has_ended(now) && now == before;
-  if (!state.ticked() || is_as_before) return false;
+  const NodeState before = std::exchange(watched.before, state);
+  const Status now = state.status();
+  if (!state.ticked() || (has_ended(now) && !completes_newly(before, state))) return false;
   // When it completes, an ancestor that ends too makes it idle again.
   switch (watched.breakpoint.when) {
     case Breakpoint::When::Begins:
-      return before != Status::Running;
+      return before.status() != Status::Running;
     case Breakpoint::When::Succeeds:
       return now == Status::Success;
     case Breakpoint::When::Fails:

@@ -11,10 +11,10 @@ namespace lockstep::host {
 
 struct Breakpoint {
   enum class When : std::uint8_t {
-    Begins,     // the node; not if it completes at once as it did before
+    Begins,     // the node; not if it completes at once as it did in the tick before
     Completes,  // it; likewise
     Barrier,    // a child comes to the limit of this synchronized node, or the limit moves on
-    Succeeds,   // the node; not if it did so before
+    Succeeds,   // the node; not if it did so in the tick before
     Fails,      // likewise
   };
   NodeIndex node = 0;
@@ -35,7 +35,7 @@ class Breakpoints {
  private:
   struct Watched {
     Breakpoint breakpoint;
-    Status before = Status::Idle;      // after the last tick
+    NodeState before = {};             // after the last tick
     std::vector<bool> were_held = {};  // the children of a synchronized node
     double limit = 0;
   };

@@ -65,6 +65,30 @@ TEST_CASE("log events: chosen by path, event and ticks, as text and JSON") {
   CHECK(contains(typo.err, "--path bse: no node, entry or leaf that logs is called so"));
 }
 
+// `count` succeeds in the ticks 0, 2 and 4; in between it is not reached, and stays as it is.
+// `ready` succeeds in each tick.
+TEST_CASE("log events: a node that completes anew has an event, also with the same result") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root lockstep=\"1\"><plugin name=\"motion\"/><BehaviorTree ID=\"Test\"><Repeat times=\"3\">"
+      "<Sequence memory=\"true\"><Script name=\"count\" code=\"n := 1\"/>"
+      "<Sequence><Check name=\"ready\" code=\"n == 1\"/><Advance name=\"move\" step=\"0.9\"/>"
+      "</Sequence></Sequence></Repeat></BehaviorTree></root>");
+  const std::string file = directory.path("run.jsonl");
+  REQUIRE(
+      run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--record", file}).code ==
+      0);
+  CHECK(
+      run_lockstep({"log", "events", file, "--path", "count", "--path", "ready", "--format", "csv"})
+          .out ==
+      "tick,time_s,event,what,value\n"
+      "0,0,success,Test/Repeat/Sequence/count,\n"
+      "0,0,success,Test/Repeat/Sequence/Sequence/ready,\n"
+      "2,0.2,success,Test/Repeat/Sequence/count,\n"
+      "4,0.4,success,Test/Repeat/Sequence/count,\n");
+}
+
 TEST_CASE("log events: an unknown event is refused with what there is") {
   const Outcome outcome = run_lockstep({"log", "events", "run.jsonl", "--event", "stop"});
   CHECK(outcome.code == 2);

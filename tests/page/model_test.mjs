@@ -180,7 +180,18 @@ test("a node that completes in each tick is counted in each", () => {
   assert.equal(run.countsOf(1).failed, 10);
   assert.equal(run.countsOf(2).succeeded, 2);
   assert.deepEqual(model.laneSpans(run, 1, 0, 2).map((span) => span.again), [true]);
-  assert.deepEqual(model.laneSpans(run, 2, 0, 2).map((span) => span.again), [false]);
+  assert.deepEqual(model.laneSpans(run, 2, 0, 2).map((span) => span.again), [false, false]);
+});
+
+test("a node that completes anew with the same result has an event and an activation of its own", () => {
+  const count = (ticked) => [1, "success", 0, ticked, 0], ready = [2, "success", 0, 1, 0];
+  const run = runOf({ tick: 0, time_s: 0, nodes: [count(1), ready] }, { tick: 1, time_s: 0.1, nodes: [count(0)] },
+    { tick: 2, time_s: 0.2, nodes: [count(1)] }, { tick: 3, time_s: 0.3, nodes: [count(0)] }, { tick: 4, time_s: 0.4, nodes: [count(1)] });
+  assert.deepEqual(run.events.all.map(({ line, kind, node }) => [line, kind, node]),
+    [[0, "success", 1], [0, "success", 2], [2, "success", 1], [4, "success", 1]]);
+  assert.deepEqual(model.activations(run, 1, 4, 9).map(({ from, to }) => [from, to]), [[4, 4], [2, 2], [0, 0]]);
+  assert.equal(model.activations(run, 2, 4, 9).length, 1);
+  assert.equal(model.laneText(run, 1), "succeeded 3 times");
 });
 
 test("a page that misses lines has the counts of the program, and says what it has missed", () => {

@@ -7,13 +7,15 @@
 
 #include "base/core/csv_field.h"
 #include "base/json/json.h"
+#include "trace/completion.h"
 
 namespace lockstep::host {
 namespace {
 
-// "": its status has not changed so that anything began or ended.
-std::string_view change_of(Status before, Status now) {
-  if (now == before) return {};
+// "": nothing began or ended.
+std::string_view change_of(NodeState was, NodeState is) {
+  const Status before = was.status(), now = is.status();
+  if (now == before) return completes_newly(was, is) ? to_string(now) : "";
   if (now == Status::Running) return "start";
   if (now == Status::Idle) return before == Status::Running ? "halt" : "";
   return to_string(now);
@@ -84,7 +86,7 @@ class Events {
     if (goes_on && !was_below) add("release", it.path, "");
     if (times > 0 && state.ticked() && has_ended(state.status())) {
       add_result(it, state.status(), times);
-    } else if (const auto change = change_of(before.status(), state.status()); !change.empty()) {
+    } else if (const auto change = change_of(before, state); !change.empty()) {
       add(change, it.path, "");
     }
     if (state.held() && !before.held() && !is_below) add("hold", it.path, "");

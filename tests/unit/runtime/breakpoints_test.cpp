@@ -41,6 +41,17 @@ TEST_CASE("a breakpoint is reached when a node completes, also with its ancestor
   CHECK(ticks_of("Repeat[times=2](Sequence(a))", "a=RSRS", 2, When::Completes, 4) == ".x.x");
 }
 
+// Of each second tick there is nothing to tell: the node stands as it was.
+TEST_CASE(
+    "a breakpoint is reached each time that a node completes anew, also with the same result") {
+  constexpr const char* kTree = "Repeat[times=3](Sequence[memory=true](a b))";
+  for (const When when : {When::Begins, When::Completes, When::Succeeds}) {
+    CHECK(ticks_of(kTree, "a=SSS b=RSRSRS", 2, when, 6) == "x.x.x.");
+  }
+  CHECK(ticks_of("Sequence(g? b)", "g=SSSS b=RRRR", 1, When::Succeeds, 4) == "x...");
+  CHECK(ticks_of("Sequence(g? b)", "g=SSFS b=RRRR", 1, When::Succeeds, 3) == "x..");
+}
+
 TEST_CASE("a breakpoint is reached when a child comes to a barrier, or all have passed it") {
   constexpr const char* kTree = "ParallelAbsolute[barriers=.5;1](a b)";
   CHECK(ticks_of(kTree, "a+.25 b+.5", 0, When::Barrier, 4) == ".xx.");

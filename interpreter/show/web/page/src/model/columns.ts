@@ -1,5 +1,6 @@
 // Changes, and the lines of the recording that have them: a value holds until the next change. They are columns of numbers,
 // since a long run has millions of changes.
+import { RUNNING } from "./recording";
 
 function grown<T extends Uint32Array | Float64Array | Uint8Array>(old: T, Type: new (n: number) => T): T {
   const more = new Type(Math.max(4, old.length * 2));
@@ -22,16 +23,22 @@ function placeOf(lines: Uint32Array, length: number, line: number): number {
   return low;
 }
 
+// Flags of two ticks, or two moments of one, in a row: the node has completed in the second, also with the result that it had.
+export function completesNewly(before: number, after: number): boolean {
+  const status = after & STATUS;
+  return (after & TICKED) !== 0 && status > RUNNING && (status !== (before & STATUS) || (before & TICKED) === 0);
+}
+
 export class NodeColumn {
-  states = new NumberColumn(); // the flags without TICKED, where they change
+  states = new NumberColumn(); // the flags without TICKED, where they change, and where the node completes again
   lines = NO_LINES;
   progress = NO_NUMBERS;
   flags = NO_BYTES; // status, 8: ticked, 16: held
   length = 0;
 
   push(line: number, progress: number, flags: number) {
-    const { states } = this, state = flags & ~TICKED;
-    if (state !== (states.length === 0 ? 0 : states.values[states.length - 1])) states.push(line, state);
+    const { states } = this, state = flags & ~TICKED, before = this.length === 0 ? 0 : this.flags[this.length - 1];
+    if (state !== (before & ~TICKED) || completesNewly(before, flags)) states.push(line, state);
     if (this.length === this.lines.length) {
       this.lines = grown(this.lines, Uint32Array);
       this.progress = grown(this.progress, Float64Array);

@@ -1,5 +1,5 @@
 // The events of a run, in order: for the log, and for going from one event to the next.
-import { HELD, STATUS, TICKED } from "./columns";
+import { completesNewly, HELD, STATUS, TICKED } from "./columns";
 import { shortNumbers } from "./numbers";
 import { IDLE, RUNNING, SUCCESS, type End, type Header, type LogLine } from "./recording";
 import type { Shape } from "./shape";
@@ -128,7 +128,7 @@ export class Events {
   change(node: number, before: number, after: number, times = 0) {
     const was = before & STATUS, is = after & STATUS;
     if (times > 0 && after & TICKED && is > RUNNING) this.result(node, is, times);
-    else if (is !== was) this.statusChange(node, was, is);
+    else if (is !== was || completesNewly(before, after)) this.statusChange(node, was, is);
     if ((before & HELD) === (after & HELD)) return;
     if (this.run.shape.nodes[node].keeper === null) return; // what is below a held node
     if (after & HELD) this.add("hold", node, "is held", FIRST);
