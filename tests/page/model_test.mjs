@@ -124,6 +124,24 @@ test("who joins a run does not take what there was for what happened", () => {
   assert.equal(run.entries[0][0].value, "open");
 });
 
+test("a part of a recording begins with a whole state: what there was, not what happened", () => {
+  const run = runOf(
+    { tick: 70, time_s: 7, nodes: [running(0, 0.5), [1, "success", 1, 1, 0], running(2, 0.5, 1)], entries: [],
+      whole: [[0, "open"]] },
+    { tick: 71, time_s: 7.1, nodes: [[0, "success", 1, 1, 0], [2, "idle", 0, 0, 0]], entries: [[0, "shut"]] });
+  assert.deepEqual(run.entries[0], [{ line: 0, value: "open" }, { line: 1, value: "shut" }]);
+  assert.deepEqual(run.events.all.map((event) => [event.line, event.text]), [[1, "door = shut"], [1, "succeeded"], [1, "halted"]]);
+  assert.deepEqual([run.countsOf(1).succeeded, run.countsOf(2).held, run.countsOf(2).halted], [2, 0, 1]);
+  // In the middle, such a line repeats what is known.
+  const middle = runOf({ tick: 0, time_s: 0, nodes: [running(2, 0.5, 1)], entries: [[0, "open"]] },
+    { tick: 1, time_s: 0.1, nodes: [running(2, 0.5, 1)], whole: [[0, "open"]] });
+  assert.deepEqual([middle.entries[0].length, middle.countsOf(2).held], [1, 1]);
+  // A tick of several moments.
+  const moments = runOf({ tick: 70, time_s: 7, nodes: [running(1, 0, 1)], whole: [],
+    moments: [[2, [[2, "success", 1, 0]]], [1, []]] });
+  assert.deepEqual([moments.countsOf(1).held, moments.countsOf(2).succeeded, moments.events.all.length], [0, 2, 0]);
+});
+
 test("lines that come again after a connection was lost are taken once", () => {
   const line = { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0)], logs: [["Test/pull/arm", "info", "here"]] };
   const run = runOf(line, line, HEADER, line, { tick: 1, time_s: 0.1 }, line);

@@ -23,11 +23,12 @@ export class Counts {
     this.entries = new Array(entries).fill(0);
   }
 
-  change(node: number, flags: number, tick: number) {
+  // `joins`: with which tick it became so is not known.
+  change(node: number, flags: number, tick: number, joins = false) {
     const it = this.nodes[node], was = it.flags & STATUS;
     it.counts = before(it, tick);
     if (was === RUNNING && (flags & STATUS) === IDLE) ++it.counts[HALTED];
-    if (flags & HELD && !(it.flags & HELD)) ++it.counts[HELDS];
+    if (flags & HELD && !(it.flags & HELD) && !joins) ++it.counts[HELDS];
     it.since = tick;
     it.flags = flags;
   }

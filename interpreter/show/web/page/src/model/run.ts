@@ -91,7 +91,7 @@ export class Run {
     this.ticks.push(line.tick);
     this.times.push(line.time_s);
     this.events.lateness();
-    this.joins = line.full === true && this.lines === 1 && line.tick > 0;
+    this.joins = (line.full === true || line.whole !== undefined) && this.lines === 1 && line.tick > 0;
     const before = line.moments ? this.nodes.map(lastFlags) : null;
     if (line.full) this.forgetOthers(line);
     for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
@@ -115,7 +115,7 @@ export class Run {
       this.events.fault(node, message);
       this.counts.fault(node);
     }
-    for (const [entry, value] of line.entries ?? []) this.changeEntry(entry, value);
+    for (const [entry, value] of line.whole ?? line.entries ?? []) this.changeEntry(entry, value);
     const missing = this.counts.correct(line);
     if (missing && !this.joins) this.events.missed(missing);
     this.takeLogs(line.logs);
@@ -153,6 +153,7 @@ export class Run {
       for (const [node, status, ticked, held] of nodes) state[node] = flagsOf(status, ticked, held);
       rows.unshift({ times, flags: [...state] });
     }
+    if (this.joins && rows.length > 0) before = rows[0].flags;
     for (const { times, flags } of rows) {
       flags.forEach((now, node) => {
         this.counts.moment(node, before[node], now, times, line.tick);
@@ -174,7 +175,7 @@ export class Run {
     const before = changes.length === 0 ? 0 : changes.flags[changes.length - 1];
     if (changes.length > 0 && before === flags && changes.progress[changes.length - 1] === progress) return;
     changes.push(this.last, progress, flags);
-    if (before !== flags && !isPart) this.counts.change(node, flags, this.ticks[this.last]);
+    if (before !== flags && !isPart) this.counts.change(node, flags, this.ticks[this.last], this.joins);
     this.thinner.count(this.nodes);
     if (!this.joins && !isPart) this.events.change(node, before, flags);
   }
