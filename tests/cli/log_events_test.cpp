@@ -89,6 +89,47 @@ TEST_CASE("log events: a node that completes anew has an event, also with the sa
       "4,0.4,success,Test/Repeat/Sequence/count,\n");
 }
 
+// `q` holds `s` in the ticks 1, 2 and 4; in tick 2 `q` is held itself. `a` is below `s`.
+TEST_CASE("log events: each hold has its release, also where the node above is held in between") {
+  std::string text =
+      R"({"lockstep_recording":1,"tree":"T","file":"t.xml","version":"1","law":3,"rate_hz":10,)"
+      R"("clock":"virtual","seed":0,"arguments":{},"nodes":[)";
+  const char* const paths[] = {"T/p", "T/p/q", "T/p/q/s", "T/p/q/s/a"};
+  for (int node = 0; node < 4; ++node) {
+    const std::string path = paths[node];
+    text += (node > 0 ? ",{\"index\":" : "{\"index\":") + std::to_string(node) + ",\"path\":\"" +
+            path + "\",\"name\":\"" + path.substr(path.rfind('/') + 1) +
+            "\",\"parent\":" + (node > 0 ? std::to_string(node - 1) : "null") +
+            (node < 2   ? ",\"kind\":\"ParallelAbsolute\",\"barriers\":[0.5]}"
+             : node < 3 ? ",\"kind\":\"Sequence\"}"
+                        : ",\"kind\":\"Advance\"}");
+  }
+  text += "]}\n";
+  const char* const states[] = {
+      R"([0,"running",0,1,0],[1,"running",0,1,0],[2,"running",0,1,0],[3,"running",0,1,0])",
+      R"([2,"running",0,0,1],[3,"running",0,0,1])",
+      R"([1,"running",0,0,1])",
+      R"([1,"running",0,1,0],[2,"running",0,1,0],[3,"running",0,1,0])",
+      R"([2,"running",0,0,1],[3,"running",0,0,1])",
+      R"([2,"running",0,1,0],[3,"running",0,1,0])"};
+  for (int tick = 0; tick < 6; ++tick) {
+    text += "{\"tick\":" + std::to_string(tick) + ",\"time_s\":0." + std::to_string(tick) +
+            ",\"nodes\":[" + states[tick] + "]}\n";
+  }
+  const TemporaryDirectory directory;
+  const std::string file = directory.file("run.jsonl", text);
+  CHECK(run_lockstep(
+            {"log", "events", file, "--event", "hold", "--event", "release", "--format", "csv"})
+            .out ==
+        "tick,time_s,event,what,value\n"
+        "1,0.1,hold,T/p/q/s,\n"
+        "2,0.2,hold,T/p/q,\n"
+        "3,0.3,release,T/p/q,\n"
+        "3,0.3,release,T/p/q/s,\n"
+        "4,0.4,hold,T/p/q/s,\n"
+        "5,0.5,release,T/p/q/s,\n");
+}
+
 TEST_CASE("log events: an unknown event is refused with what there is") {
   const Outcome outcome = run_lockstep({"log", "events", "run.jsonl", "--event", "stop"});
   CHECK(outcome.code == 2);

@@ -249,6 +249,30 @@ test("the keys stop at the events that are chosen, and never at an entry that ch
   assert.deepEqual(stops(run, { hidden: new Set(), only: 2 }), [15]);
 });
 
+// The node 1 keeps 2 in step, and 0 keeps 1; 3 is below 2.
+const NESTED = { ...HEADER, nodes: [
+  { index: 0, path: "T/p", kind: "ParallelAbsolute", name: "p", parent: null, barriers: [0.5] },
+  { index: 1, path: "T/p/q", kind: "ParallelAbsolute", name: "q", parent: 0, barriers: [0.5] },
+  { index: 2, path: "T/p/q/s", kind: "Sequence", name: "s", parent: 1 },
+  { index: 3, path: "T/p/q/s/a", kind: "Advance", name: "a", parent: 2 }] };
+
+test("each hold has its release, and what is below a held node has neither", () => {
+  const all = [running(0, 0), running(1, 0), running(2, 0), running(3, 0)];
+  const holds = (...lines) => {
+    const run = new model.Run();
+    run.feed(JSON.stringify(NESTED));
+    lines.forEach((nodes, tick) => run.feed(JSON.stringify({ tick, time_s: tick / 10, nodes })));
+    return run.events.all.filter(({ kind }) => kind === "hold" || kind === "release").map(({ line, kind, node }) => [line, kind, node]);
+  };
+  // `q` holds `s`, then is held itself, then all go on, then `q` holds `s` again.
+  assert.deepEqual(
+    holds(all, [running(2, 0, 1), running(3, 0, 1)], [running(1, 0, 1)], all, [running(2, 0, 1), running(3, 0, 1)], all),
+    [[1, "hold", 2], [2, "hold", 1], [3, "release", 1], [3, "release", 2], [4, "hold", 2], [5, "release", 2]]);
+  // `q` is held with all below it; then only `s` is, by `q`; then it is halted.
+  assert.deepEqual(holds(all, [running(1, 0, 1), running(2, 0, 1), running(3, 0, 1)], [running(1, 0)], [[2, "idle", 0, 0, 0], [3, "idle", 0, 0, 0]]),
+    [[1, "hold", 1], [2, "release", 1], [2, "hold", 2]]);
+});
+
 test("many short holds are one event, few are each one", () => {
   const held = (many) => runOf(...Array.from({ length: 2 * many }, (_, tick) =>
     ({ tick, time_s: tick / 10, nodes: [running(0, 0), running(1, 0), running(2, 0, 1 - (tick % 2))] })));

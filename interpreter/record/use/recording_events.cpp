@@ -24,7 +24,11 @@ std::string_view change_of(NodeState was, NodeState is) {
 class Events {
  public:
   Events(const RecordingHeader& header, TickRange range, const EventSink& take)
-      : header_(header), range_(range), take_(take), before_(header.nodes.size()) {
+      : header_(header),
+        range_(range),
+        take_(take),
+        before_(header.nodes.size()),
+        is_told_held_(header.nodes.size()) {
     const bool paces = std::ranges::any_of(header.nodes, &ShapeNode::paces);
     factors_.assign(paces ? header.nodes.size() : 0, 1);
   }
@@ -40,7 +44,9 @@ class Events {
     now_.clear();
     for (const RecordedState& it : tick.nodes) now_.push_back(it.state());
     if (is_first) {
-      // What changed with it is not known.
+      for (NodeIndex node = 0; node < now_.size(); ++node) {  // what changed with it is not known
+        is_told_held_[node] = is_held_itself(node, now_);
+      }
     } else if (tick.moments.empty()) {
       for (NodeIndex node = 0; node < before_.size(); ++node) add_node(node, now_);
     } else {
@@ -79,17 +85,24 @@ class Events {
     const ShapeNode& it = header_.nodes[node];
     if (is_group(it)) return;
     const NodeState before = before_[node], state = now[node];
-    // A node below a held one is held with it.
-    const bool is_below = it.parent && now[*it.parent].held();
-    const bool was_below = it.parent && before_[*it.parent].held();
-    const bool goes_on = before.held() && !state.held() && state.status() != Status::Idle;
-    if (goes_on && !was_below) add("release", it.path, "");
+    const bool is_over = is_told_held_[node] && !state.held();
+    if (is_over) is_told_held_[node] = false;
+    if (is_over && state.status() != Status::Idle) add("release", it.path, "");
     if (times > 0 && state.ticked() && has_ended(state.status())) {
       add_result(it, state.status(), times);
     } else if (const auto change = change_of(before, state); !change.empty()) {
       add(change, it.path, "");
     }
-    if (state.held() && !before.held() && !is_below) add("hold", it.path, "");
+    if (!is_told_held_[node] && is_held_itself(node, now)) {
+      is_told_held_[node] = true;
+      add("hold", it.path, "");
+    }
+  }
+
+  // A node below a held one is held with it.
+  bool is_held_itself(NodeIndex node, std::span<const NodeState> now) const {
+    const ShapeNode& it = header_.nodes[node];
+    return now[node].held() && !is_group(it) && !(it.parent && now[*it.parent].held());
   }
 
   // In such a tick each result is an event, also one that is as the one before.
@@ -123,6 +136,7 @@ class Events {
   const TickRange range_;
   const EventSink& take_;
   std::vector<NodeState> before_, now_, moment_;
+  std::vector<bool> is_told_held_;  // it has a hold, and no release yet
   std::vector<double> factors_;
   RecordingEvent at_;
   std::uint64_t next_ = 0;  // tick

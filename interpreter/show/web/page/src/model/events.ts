@@ -85,6 +85,7 @@ const FIRST = -Infinity, LAST = Infinity;
 export class Events {
   all: RunEvent[] = [];
   private fresh: RunEvent[] = []; // of the current tick
+  private readonly held = new Set<number>(); // that have a hold, and no release yet
   private readonly latest = new Map<string, { line: number; series: Series }>();
 
   constructor(private readonly run: Happening) {}
@@ -129,10 +130,23 @@ export class Events {
     const was = before & STATUS, is = after & STATUS;
     if (times > 0 && after & TICKED && is > RUNNING) this.result(node, is, times);
     else if (is !== was || completesNewly(before, after)) this.statusChange(node, was, is);
-    if ((before & HELD) === (after & HELD)) return;
-    if (this.run.shape.nodes[node].keeper === null) return; // what is below a held node
-    if (after & HELD) this.add("hold", node, "is held", FIRST);
-    else if (is === RUNNING) this.add("release", node, "resumes", FIRST);
+  }
+
+  // Of all nodes, or of those that have come to be held or ceased to be; after the changes of a tick or a moment. What is below
+  // a held node is held with it. `joins`: since when is not known.
+  holds(nodes: Iterable<number>, flagsOf: (node: number) => number, joins: boolean) {
+    const { shape } = this.run;
+    const see = (node: number) => {
+      const { parent, isGroup } = shape.nodes[node], flags = flagsOf(node);
+      if (!(flags & HELD)) {
+        const was = this.held.delete(node);
+        if (was && (flags & STATUS) !== IDLE) this.add("release", node, "resumes", FIRST);
+      } else if (!isGroup && !this.held.has(node) && !(parent !== null && flagsOf(parent) & HELD)) {
+        this.held.add(node);
+        if (!joins) this.add("hold", node, "is held", FIRST);
+      }
+    };
+    for (const node of nodes) [node, ...shape.nodes[node].children].forEach(see);
   }
 
   private result(node: number, status: number, times: number) {

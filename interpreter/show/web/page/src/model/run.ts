@@ -39,6 +39,7 @@ export class Run {
   cuts: Cut[] = [];
   version = 0; // grows with what is fed
   private joins = false; // the line tells what there was, not what happened
+  private turned: number[] = []; // that the line holds, or holds no longer
   private readonly thinner = new Thinner();
 
   get lines(): number {
@@ -98,6 +99,8 @@ export class Run {
       this.change(node, progress, flagsOf(status, ticked, held), before !== null);
     }
     if (before) this.takeMoments(line, before);
+    this.events.holds(this.turned, (node) => lastFlags(this.nodes[node]), this.joins);
+    this.turned = [];
     for (const [node, limit] of line.limits ?? []) {
       column(this.limits, node, () => new NumberColumn()).push(this.last, limit ?? Infinity);
     }
@@ -159,6 +162,7 @@ export class Run {
         this.counts.moment(node, before[node], now, times, line.tick);
         if (!this.joins) this.events.change(node, before[node], now, times);
       });
+      this.events.holds(flags.keys(), (node) => flags[node], this.joins);
       this.events.settle();
       before = flags;
     }
@@ -176,6 +180,7 @@ export class Run {
     if (changes.length > 0 && before === flags && changes.progress[changes.length - 1] === progress) return;
     changes.push(this.last, progress, flags);
     if (before !== flags && !isPart) this.counts.change(node, flags, this.ticks[this.last], this.joins);
+    if ((before ^ flags) & HELD) this.turned.push(node);
     this.thinner.count(this.nodes);
     if (!this.joins && !isPart) this.events.change(node, before, flags);
   }
