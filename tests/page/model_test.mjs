@@ -190,6 +190,17 @@ test("activations are told apart, with what was held in them", () => {
   assert.equal(model.laneText(run, 1), "held once for 0.10 s, failed once");
 });
 
+test("a node is held to the end of the run, not to the beginning of its last tick", () => {
+  const run = runOf({ tick: 0, time_s: 0, nodes: [running(1, 0)] }, { tick: 1, time_s: 0.1, nodes: [running(1, 0.5, 1)] },
+    { tick: 2, time_s: 0.2, nodes: [] });
+  assert.equal(model.laneText(run, 1), "held once for 0.10 s");
+  run.feed(JSON.stringify({ end: { result: "stopped", reason: "max_ticks", ticks: 3, time_s: 0.3 } }));
+  assert.equal(model.laneText(run, 1), "held once for 0.20 s");
+  const held = ([activation]) => activation.held.toFixed(6);
+  assert.deepEqual([held(model.activations(run, 1, 1, 9)), held(model.activations(run, 1, 2, 9))], ["0.000000", "0.200000"]);
+  assert.deepEqual(model.heldSpans(run, 1, 0, 1), [[0.1, 0.3]]);
+});
+
 test("a node that completes in each tick is counted in each", () => {
   const run = runOf(
     { tick: 0, time_s: 0, nodes: [[1, "failure", 0, 1, 0], [2, "success", 1, 1, 0]] },

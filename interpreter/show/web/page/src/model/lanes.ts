@@ -1,5 +1,5 @@
 // The states of a node over time, in spans of one state.
-import { HELD, STATUS, TICKED } from "./columns";
+import { HELD, STATUS, TICKED, type NumberColumn } from "./columns";
 import { RUNNING } from "./recording";
 import type { Run } from "./run";
 
@@ -37,6 +37,11 @@ export function laneSpans(run: Run, node: number, from: number, to: number): Lan
   return spans;
 }
 
+// When the state of a place ended, in seconds: with the next one, or with the run.
+function endOf(run: Run, states: NumberColumn, place: number): number {
+  return place + 1 < states.length ? run.times[states.lines[place + 1]] : run.endTime;
+}
+
 interface Activation {
   from: number; // lines
   to: number | null; // where it ended
@@ -49,6 +54,7 @@ export function activations(run: Run, node: number, line: number, most: number):
   const { states } = run.nodes[node];
   const found: Activation[] = [];
   let current: Activation | null = null;
+  const now = line < run.last ? run.times[line] : run.endTime;
   const end = (at: number, result: number) => {
     if (current) found.push({ ...current, to: at, result });
     current = null;
@@ -58,8 +64,7 @@ export function activations(run: Run, node: number, line: number, most: number):
     const status = states.values[place] & STATUS;
     if (status === 1) {
       current ??= { from: at, to: null, result: 1, held: 0 };
-      const next = place + 1 < states.length ? states.lines[place + 1] : run.last;
-      if (state === HELD_STATE) current.held += run.times[Math.min(next, line)] - run.times[at];
+      if (state === HELD_STATE) current.held += Math.min(endOf(run, states, place), now) - run.times[at];
     } else if (status === 0) {
       end(at, 0);
     } else {
@@ -86,8 +91,7 @@ export function heldSpans(run: Run, node: number, from: number, to: number): [nu
   for (let place = Math.max(0, states.placeAt(run.lineAtTime(from))); place < states.length; ++place) {
     const begin = run.times[states.lines[place]];
     if (begin > to) break;
-    const next = place + 1 < states.length ? states.lines[place + 1] : run.last;
-    if (states.values[place] & HELD) spans.push([begin, run.times[next]]);
+    if (states.values[place] & HELD) spans.push([begin, endOf(run, states, place)]);
   }
   return spans;
 }
@@ -105,10 +109,11 @@ function activeTimes(run: Run, node: number): [held: number, active: number] {
   const goesOn = states.length > 0 && (states.values[states.length - 1] & STATUS) === RUNNING;
   if (before?.length === states.length && !goesOn) return before.times;
   const times: [number, number] = [0, 0];
-  for (const { state, from, to } of laneSpans(run, node, 0, run.last)) {
-    const took = run.times[to] - run.times[from];
-    if (state === HELD_STATE) times[0] += took;
-    if (state === HELD_STATE || state === RUNNING) times[1] += took;
+  for (let place = 0; place < states.length; ++place) {
+    if ((states.values[place] & STATUS) !== RUNNING) continue;
+    const took = endOf(run, states, place) - run.times[states.lines[place]];
+    if (states.values[place] & HELD) times[0] += took;
+    times[1] += took;
   }
   known.set(states, { length: states.length, times });
   return times;

@@ -51,6 +51,10 @@ export class Run {
   get period(): number {
     return this.header && this.header.rate_hz > 0 ? 1 / this.header.rate_hz : 0;
   }
+  // In seconds: until when there is a state.
+  get endTime(): number {
+    return Math.max(this.times[this.last] ?? 0, this.end?.time_s ?? 0);
+  }
   // The last line that is not later.
   lineAtTime(time: number): number {
     return lastNotAbove(this.times, time);
