@@ -162,6 +162,19 @@ TEST_CASE("log measure: the end of a path must mean one node") {
   CHECK(contains(outcome.err, "/a/arm' as well as "));
 }
 
+TEST_CASE("log plot: a node that no tick reached is a note beside the images of others") {
+  const TemporaryDirectory directory;
+  const std::string recording = recorded_log(directory, "<Fallback>" + kA1 + kR1 + "</Fallback>");
+  const Outcome both = plot_log({"plot", recording, "--out", directory.path("x.svg")});
+  CHECK(both.code == 0);
+  CHECK(contains(both.out, "x-pull.svg\n"));
+  CHECK(both.err == "lockstep: note: no tick reached 'Main/Fallback/point'\n");
+  const Outcome none =
+      plot_log({"plot", recording, "--node", "point", "--out", directory.path("x.svg")});
+  CHECK(none.code == 2);
+  CHECK(contains(none.err, "error: no tick reached 'Main/Fallback/point'"));
+}
+
 TEST_CASE("log plot draws an SVG or a PNG, with data and script beside it") {
   const TemporaryDirectory directory;
   const std::string recording = recorded_log(directory, GENERATE(kA1, kR1));

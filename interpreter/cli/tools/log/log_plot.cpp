@@ -75,10 +75,13 @@ bool would_replace_recording(const LogPlotOptions& options, std::filesystem::pat
 
 int draw_all(const LogPlotOptions& options, std::span<const ProgressPlot> plots) {
   StopSignals::install();  // a signal leaves nothing half drawn
-  int drawn = 0, written = kExitSuccess;
+  const auto has_samples = [](const ProgressPlot& it) { return !it.samples.empty(); };
+  const bool is_any_drawn = std::ranges::any_of(plots, has_samples);
+  int written = kExitSuccess;
   for (const ProgressPlot& plot : plots) {
-    if (plot.samples.empty()) {
-      print_error(fmt::format("no tick reached '{}'", printable(plot.node.path)));
+    if (!has_samples(plot)) {
+      const std::string message = fmt::format("no tick reached '{}'", printable(plot.node.path));
+      is_any_drawn ? print_note(message) : print_error(message);
       continue;
     }
     const auto image = image_of(options, plot, plots);
@@ -89,9 +92,8 @@ int draw_all(const LogPlotOptions& options, std::span<const ProgressPlot> plots)
       return StopSignals::received() == 0 ? kExitUsage : kExitSignal + StopSignals::received();
     }
     written = first_failure(written, write_results(printable(result.files.back().string()) + "\n"));
-    ++drawn;
   }
-  return drawn > 0 ? written : kExitUsage;
+  return is_any_drawn ? written : kExitUsage;
 }
 
 int plot(const LogPlotOptions& options) {
