@@ -43,6 +43,7 @@ void EntryState::set(const std::string* value, std::uint64_t tick) {
     text = *value;
   }
   changed = tick;
+  is_older = false;
 }
 
 EntryChanges::EntryChanges(const std::vector<std::uint32_t>& slots) {

@@ -23,6 +23,7 @@ struct EntryState {
   std::string text = {};                      // its value; "" if it is too long
   bool is_long = false;                       // it is
   std::optional<std::uint64_t> changed = {};  // the tick of the last change; none: no value yet
+  bool is_older = false;  // it changed in that tick or before: what was before is not known
 
   void set(const std::string* value, std::uint64_t tick);  // null: it is too long
   friend bool operator==(const EntryState&, const EntryState&) = default;

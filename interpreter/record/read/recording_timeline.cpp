@@ -17,10 +17,16 @@ std::size_t memory_of(const std::vector<LeafLine>& lines) {
 
 }  // namespace
 
+// A recording that is read from its middle begins with values of which the ticks are not known.
 void Past::add(const RecordedTick& tick) {
+  const bool begins_later = entries.empty() && tick.whole;
   for (const RecordedEntry& it : tick.entries) {
     if (it.entry >= entries.size()) entries.resize(it.entry + 1);
-    entries[it.entry].set(it.value ? &*it.value : nullptr, tick.tick);
+    EntryState& entry = entries[it.entry];
+    const bool is_same = entry.is_long == !it.value && entry.text == it.value.value_or("");
+    if (tick.whole && entry.changed && is_same) continue;  // a whole state repeats what is known
+    entry.set(it.value ? &*it.value : nullptr, tick.tick);
+    entry.is_older = begins_later;
   }
   for (const LeafLine& line : tick.logs) logs.add(line);
   take_heard(tick.heard, from_seconds(tick.time), heard);

@@ -29,7 +29,7 @@ std::string entry_line(std::string_view key, const EntryState& entry, const Draw
   line.add(key);
   line.add(" = ");
   line.add(entry.is_long ? "(too long to be shown)" : entry.text);
-  line.add(fmt::format("  tick {}", *entry.changed), Style::Dim);
+  if (!entry.is_older) line.add(fmt::format("  tick {}", *entry.changed), Style::Dim);
   return line.text() + "\n";
 }
 

@@ -4,6 +4,7 @@
 
 #include "record/write/recorder.h"
 #include "run/shape_of.h"
+#include "show/view/lines_below.h"
 #include "show/view/replay/replay_view.h"
 #include "unit/recording/random_recording.h"
 #include "unit/recording/watched_run.h"
@@ -121,6 +122,29 @@ TEST_CASE("a recording that gets shorter while it is replayed is reported, not m
   opened.in.str(text.substr(0, text.size() / 2));
   opened.timeline.go_to_end();
   CHECK(opened.timeline.failed());
+}
+
+TEST_CASE("a replay from the middle does not know when the first values became so") {
+  Opened opened(
+      R"({"lockstep_recording":1,"tree":"T","file":"t.xml","version":"1","rate_hz":10,)"
+      R"("clock":"virtual","seed":0,"arguments":{},"nodes":[{"index":0,"path":"T/a","kind":"Wait",)"
+      R"("name":"a","parent":null}],"entries":[{"key":"goal","type":"number"},)"
+      R"({"key":"door","type":"string"}],"first_tick":5})"
+      "\n"
+      R"({"tick":5,"time_s":0.5,"nodes":[],"whole":[[0,"3"],[1,"shut"]]})"
+      "\n"
+      R"({"tick":6,"time_s":0.6,"nodes":[],"entries":[[1,"open"]]})"
+      "\n");
+  const RecordingHeader& header = opened.reader.header();
+  const auto lines = [&] {
+    return entry_lines(header, snapshot_of(header, opened.timeline.now(), nullptr), {.width = 80},
+                       10);
+  };
+  CHECK(lines() == "goal = 3\ndoor = shut\n");
+  opened.timeline.step_forward();
+  CHECK(lines() == "door = open  tick 6\ngoal = 3\n");
+  opened.timeline.step_back();
+  CHECK(lines() == "goal = 3\ndoor = shut\n");
 }
 
 std::optional<Key> decode(KeyDecoder& decoder, std::string_view bytes) {
