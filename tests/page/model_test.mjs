@@ -1,7 +1,9 @@
 // The page's model of a run, without a browser: gaps, lines with the whole state, lines that come twice, long runs.
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
-import { loadModel } from "./support.mjs";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { BUILD, loadModel, lockstep, path, SOURCE, tree } from "./support.mjs";
 
 let model;
 before(async () => (model = await loadModel()));
@@ -315,12 +317,55 @@ test("the spread has the bound of the measures: what delta or barriers allow, an
   const lines = [[0, 0], [0.1, 0.3], [0.3, 0.5], [0.5, 0.5]].map(([arm, base], tick) =>
     ({ tick, time_s: tick / 10, nodes: [running(0, 0), running(1, arm), running(2, base)], limits: [[0, 0.5]] }));
   const run = runOf(...lines);
-  const { largest, allowed, step, falls } = model.spreadBound(run, 0, 0, 3);
-  assert.deepEqual([largest.toFixed(6), allowed, step, falls], ["0.200000", 0.5, 0.3, false]);
+  const { largest, allowed, step, unbounded } = model.spreadBound(run, 0, 0, 3);
+  assert.deepEqual([largest.toFixed(6), allowed, step, unbounded], ["0.200000", 0.5, 0.3, ""]);
   assert.equal(model.spreadIn(run, 0, 3), 0);
   run.feed(JSON.stringify({ tick: 4, time_s: 0.4, nodes: [running(1, 0.2)] }));
-  assert.equal(model.spreadBound(run, 0, 0, 4).falls, true); // goes on where it was
+  assert.match(model.spreadBound(run, 0, 0, 4).unbounded, /fell/); // goes on where it was
   assert.equal(model.spreadIn(run, 1, 3), null); // holds none
+});
+
+// The summary of a run, and the page's run of its recording.
+function measured(file) {
+  const recording = path("measured.jsonl"), words = ["run", file, "--plugin-path", join(BUILD, "plugins"), "--clock", "virtual",
+    "--max-ticks", "5000", "--json", "--record", recording];
+  let summary;
+  try {
+    summary = lockstep(...words);
+  } catch (error) {
+    summary = error.stdout; // a run that fails
+  }
+  const run = new model.Run();
+  for (const line of readFileSync(recording, "utf8").trim().split("\n")) run.feed(line);
+  return [JSON.parse(summary).synchronized_nodes, run];
+}
+
+test("spread, bound and longest step are those of the summary", () => {
+  const failing = tree(`<ParallelAbsolute name="both" barriers="0.5">
+    <Fallback name="x"><Inverter><AlwaysSuccess/></Inverter><Advance step="0.2"/></Fallback>
+    <Sequence name="y" memory="true"><AlwaysSuccess/><AlwaysFailure/></Sequence></ParallelAbsolute>`);
+  const files = ["late_progress", "paper/example5", "fetch_and_carry", "nested", "cart", "two_robots"].map((name) => join(SOURCE, `trees/${name}.xml`));
+  let count = 0;
+  for (const file of [...files, failing]) {
+    const [nodes, run] = measured(file);
+    for (const { path: of, largest_spread, spread_bound, step_length } of nodes) {
+      const { largest, allowed, step, unbounded, isAbout } = model.spreadBound(run, run.shape.byPath.get(of), 0, run.last);
+      const numbers = [largest, step, unbounded ? null : Math.min(1, allowed + step)].map((it) => it?.toFixed(9));
+      assert.deepEqual(numbers, [largest_spread, step_length, spread_bound].map((it) => it?.toFixed(9)), `${file} ${of} ${unbounded}`);
+      assert.equal(isAbout, false);
+      ++count;
+    }
+  }
+  assert.ok(count > 6, `${count} nodes`);
+});
+
+test("the longest step of a run with ticks that have no line is an estimate", () => {
+  const at = (tick, arm) => ({ tick, time_s: tick / 10, nodes: [running(0, 0), running(1, arm), running(2, arm)], limits: [[0, 0.5]] });
+  const { step, isAbout, unbounded } = model.spreadBound(runOf(at(0, 0), at(1, 0.1), at(5, 0.5)), 0, 0, 2);
+  assert.deepEqual([step.toFixed(6), isAbout, unbounded], ["0.100000", true, ""]);
+  // A part that begins within an activation: what was before is not known.
+  const part = model.spreadBound(runOf(at(7, 0.2), at(8, 0.3)), 0, 0, 1);
+  assert.deepEqual([part.step.toFixed(6), part.isAbout, part.unbounded], ["0.100000", false, ""]);
 });
 
 test("numbers have six digits at most, and stay as they are in names", () => {

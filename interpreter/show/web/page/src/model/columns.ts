@@ -35,6 +35,7 @@ export class NodeColumn {
   progress = NO_NUMBERS;
   flags = NO_BYTES; // status, 8: ticked, 16: held
   length = 0;
+  isThin = false; // some progress of long ago is forgotten
 
   push(line: number, progress: number, flags: number) {
     const { states } = this, state = flags & ~TICKED, before = this.length === 0 ? 0 : this.flags[this.length - 1];
@@ -53,6 +54,7 @@ export class NodeColumn {
   }
   // Forgets every second of the older changes that have only another progress.
   thin() {
+    this.isThin = true;
     const old = this.length >> 1;
     let kept = 0;
     for (let place = 0; place < this.length; ++place) {

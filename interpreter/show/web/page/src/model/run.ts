@@ -32,6 +32,7 @@ export class Run {
   reasons = new Map<number, EntryChange[]>(); // of leaves that give one; "" is none
   heard = new Map<number, HeardColumn>(); // of nodes that stand for other robots
   entries: EntryChange[][] = [];
+  ended = new Map<number, number[]>(); // by line: nodes that succeeded in its tick, and are idle after it
   events = new Events(this);
   private counts = new Counts(0, 0);
   end: End | null = null;
@@ -113,6 +114,7 @@ export class Run {
       round.number.push(this.last, number);
       round.of.push(this.last, of);
     }
+    if (line.succeeded) this.ended.set(this.last, line.succeeded);
     this.takeFactors(line);
     this.takeReasons(line);
     for (const [node, run, word] of line.heard ?? []) {

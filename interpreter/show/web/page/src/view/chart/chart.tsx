@@ -83,8 +83,8 @@ function Progress({ store, keeper }: { store: Store; keeper: number }) {
 function Spread({ store, keeper }: { store: Store; keeper: number }) {
   const { run } = store, span = chartSpan(store, keeper), [from, to] = span;
   const first = run.lineAtTime(from), last = run.lineAtTime(to);
-  const { largest, allowed, step, falls } = useMemo(() => spreadBound(run, keeper, first, last), [run.version, keeper, first, last]);
-  const bound = falls ? null : Math.min(1, allowed + step), top = Math.max(largest, bound ?? 0) * 1.15 || 1;
+  const { largest, allowed, step, isAbout, unbounded } = useMemo(() => spreadBound(run, keeper, first, last), [run.version, keeper, first, last]);
+  const bound = unbounded ? null : Math.min(1, allowed + step), top = Math.max(largest, bound ?? 0) * 1.15 || 1;
   const now = spreadIn(run, keeper, store.line);
   return (
     <>
@@ -97,7 +97,7 @@ function Spread({ store, keeper }: { store: Store; keeper: number }) {
       <ul class="legend" aria-label="Spread at this moment">
         <li><i class="sample series0" aria-hidden="true" />spread <b>{now === null ? "–" : now.toFixed(3)}</b> <span class="dim">at most {largest.toFixed(3)}</span></li>
         <li><i class="sample bound" aria-hidden="true" />bound <b>{bound === null ? "none" : bound.toFixed(3)}</b>{" "}
-          <span class="dim">{falls ? "the progress of a child fell" : `${run.shape.nodes[keeper].synchronization === "relative" ? "delta" : "barriers"} ${short(allowed)} + longest step ${step.toFixed(4)}`}</span></li>
+          <span class="dim">{unbounded || `${run.shape.nodes[keeper].synchronization === "relative" ? "delta" : "barriers"} ${short(allowed)} + longest step ${isAbout ? "about " : ""}${step.toFixed(4)}`}</span></li>
       </ul>
     </>
   );

@@ -1,8 +1,7 @@
 // The numbers of the chart, as many as its columns can show.
 import { STATUS } from "../../model/columns";
-import { RUNNING } from "../../model/recording";
+import { IDLE, RUNNING, SUCCESS } from "../../model/recording";
 import type { Run } from "../../model/run";
-import { progressAt } from "../../model/spread";
 import { spanOf, wholeSpan } from "../../store/span";
 import type { Store } from "../../store/store";
 import type { Numbers } from "./plot";
@@ -37,6 +36,15 @@ export function linesIn(run: Run, from: number, to: number, most: number): numbe
   for (let place = 0; place < count; place += step) lines.push(first + Math.floor(place));
   if (lines[lines.length - 1] !== last) lines.push(last);
   return lines;
+}
+
+// As it is after the tick of the line; null: it has none.
+function progressAt(run: Run, node: number, line: number): number | null {
+  const column = run.nodes[node], place = column.at(line);
+  if (place < 0) return null;
+  const status = column.flags[place] & STATUS;
+  if (status === IDLE) return null;
+  return status === SUCCESS ? 1 : column.progress[place];
 }
 
 export function chartData(run: Run, keeper: number, from: number, to: number, most: number): Numbers {
