@@ -141,6 +141,18 @@ test("entries, logs and events are those of the moment", async () => {
   await page.context().close();
 });
 
+test("a page of a part has the values from before it, without a time", async () => {
+  const recording = record(tree('<Sequence memory="true"><Script code="goal := 3; count := 0"/><Repeat><Sequence memory="true">' +
+    '<Advance step="0.002"/><Script code="count := count + 1"/></Sequence></Repeat></Sequence>'));
+  const page = await openRun(recording, undefined, "--from", "4400");
+  const board = page.getByRole("table", { name: "Blackboard" });
+  await atTick(page, 4200);
+  await soon.match(page, () => words(board), /goal 3 earlier count 8 earlier/);
+  await atTick(page, 4800);
+  await soon.match(page, () => words(board), /goal 3 earlier count 9 44\.990 s/);
+  await page.context().close();
+});
+
 test("text of a tree is text, never markup", async () => {
   const name = "&lt;img src=x onerror=document.title='broken'&gt;";
   const page = await openRun(record(tree(`<Sequence name="${name}" memory="true"><Advance name="${name}" step="0.1"/></Sequence>`)));

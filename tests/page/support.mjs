@@ -73,9 +73,9 @@ export function tree(text) {
   return file(`tree-${++runs}.xml`, `<root lockstep="1"><plugin name="motion"/><BehaviorTree ID="Test">${text}</BehaviorTree></root>`);
 }
 
-export function pageOf(recording) {
+export function pageOf(recording, ...args) {
   const page = recording.replace(/\.jsonl$/, ".html");
-  lockstep("log", "page", recording, "--out", page);
+  lockstep("log", "page", recording, "--out", page, ...args);
   return `file://${page}`;
 }
 
@@ -163,8 +163,8 @@ export async function open(address, options = {}, tries = 3) {
   assert.ok(tries > 1, "a page of Chromium draws nothing");
   return open(address, options, tries - 1);
 }
-export async function openRun(recording, options) {
-  const page = await open(pageOf(recording), options);
+export async function openRun(recording, options, ...args) {
+  const page = await open(pageOf(recording, ...args), options);
   await page.getByRole("tree").waitFor();
   return page;
 }

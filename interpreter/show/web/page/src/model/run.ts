@@ -56,6 +56,10 @@ export class Run {
   get endTime(): number {
     return Math.max(this.times[this.last] ?? 0, this.end?.time_s ?? 0);
   }
+  // What is so in the first line may have been so before.
+  isEarlier(line: number): boolean {
+    return line === 0 && (this.ticks[0] ?? 0) > 0;
+  }
   // The last line that is not later.
   lineAtTime(time: number): number {
     return lastNotAbove(this.times, time);

@@ -98,17 +98,17 @@ function Entry({ store, entry }: { store: Store; entry: number }) {
   const now = changes[count - 1];
   return (
     <>
-      <tr class={now?.line === line ? "fresh" : ""}>
+      <tr class={now?.line === line && !run.isEarlier(line) ? "fresh" : ""}>
         <th scope="row"><button type="button" class="node" aria-expanded={open} title={type}
           onClick={() => setOpen(!open)}>{key}</button></th>
         <td class="value" title={now?.value ?? ""}>{shown(now?.value)}</td>
         <td><SmallCurve store={store} entry={entry} /></td>
-        <td class="dim">{now ? seconds(run.times[now.line]) : ""}</td>
+        <td class="dim">{now ? (run.isEarlier(now.line) ? "earlier" : seconds(run.times[now.line])) : ""}</td>
       </tr>
       {open && <Curve store={store} entry={entry} />}
       {open && changes.slice(Math.max(0, count - MOST), count).reverse().map((change) => (
         <tr key={change.line} class="history">
-          <td>{writersOf(store, entry, change) || (change.line === 0 ? "at the start" : "")}</td>
+          <td>{writersOf(store, entry, change) || (run.isEarlier(change.line) ? "earlier" : change.line === 0 ? "at the start" : "")}</td>
           <td class="value" title={change.value ?? ""}>{shown(change.value)}</td>
           <td /><td><button type="button" class="node" onClick={() => store.goTo(change.line)}>{seconds(run.times[change.line])}</button></td>
         </tr>
