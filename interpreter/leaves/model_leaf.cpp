@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/blackboard/entry.h"
 #include "base/system/call_mark.h"
@@ -14,6 +15,8 @@ namespace lockstep::host {
 // What an object reports that has not begun. No call may read it, so the value is the most harmful
 // one.
 constexpr double kProgressOfNew = 1.0;
+// No call has so many.
+constexpr std::uint32_t kStageOfWait = 0xffffffff;
 
 struct ModelLeaves::Functions {
   static Self& self(void* leaf) { return *static_cast<Self*>(leaf); }
@@ -119,7 +122,7 @@ void ModelLeaves::restore_progress(std::uint32_t leaf) {
 
 void ModelLeaves::begin_tick() {
   for (const std::uint32_t leaf : touched_) {
-    marks_[leaf].touched = false;
+    marks_[leaf].touched = marks_[leaf].is_open = false;
     marks_[leaf].clear();
   }
   touched_.clear();
@@ -140,7 +143,10 @@ void ModelLeaves::drift() {
 
 // It is a new object. The engine calls nothing of it before it begins, unless it goes on as it was.
 void ModelLeaves::cut(const CutLeaf& leaf) {
-  if (leaf.does == AfterCut::Continues) return;
+  if (leaf.does == AfterCut::Continues) {
+    if (rules_[leaf.place].may_wait) mark(leaf.place).is_open = true;
+    return;
+  }
   mark(leaf.place);
   states_[leaf.place] = LeafState::cut(leaf.does);
   progress_[leaf.place] = kProgressOfNew;
@@ -154,15 +160,12 @@ void ModelLeaves::clear_marks() {
 void ModelLeaves::fold() {
   for (const std::uint32_t leaf : touched_) {
     LeafState& state = states_[leaf];
-    const LeafModel& model = models_.leaves[leaf];
+    const Rule& rule = rules_[leaf];
     if (state.phase == Phase::Idle) {
       state = {};
       continue;
     }
-    if (model.most_ticks == 0) {
-      const auto enough = static_cast<std::uint32_t>(model.least_ticks - 1);
-      state.ticks = std::min(state.ticks, enough);
-    }
+    if (rule.most_ticks == 0) state.ticks = std::min(state.ticks, rule.enough_ticks);
   }
   if (models_.cuts.most > 0) {
     for (std::uint32_t leaf = 0; leaf < states_.size(); ++leaf) {
@@ -186,10 +189,11 @@ void ModelLeaves::start(std::uint32_t leaf) {
   states_[leaf] = {.phase = Phase::Running};
   chooses_ = leaf;
   stage_ = 0;
-  mark(leaf);
+  mark(leaf).is_open = rules_[leaf].may_wait;
   if (is_outside(leaf)) return outside_->start(leaf);
   set_level(leaf, 0);
-  if (!rules_[leaf].is_plain && models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
+  const LeafModel& model = models_.leaves[leaf];
+  if (!rules_[leaf].is_plain && model.writes == Writes::AtStart && !model.answers_late) write(leaf);
 }
 
 bool ModelLeaves::ask(std::uint32_t fact) {
@@ -259,6 +263,7 @@ ModelLeaves::Rule::Rule(const LeafModel& model)
       is_plain(model.fact == kNoFact && model.sets.empty() && model.outputs.empty()),
       may_write(model.writes >= Writes::InAnyTick && !model.outputs.empty()),
       may_write_idle(model.writes == Writes::InAnyCall && !model.outputs.empty()),
+      may_wait(model.waits()),
       results(model.results) {
   const auto count = [](std::int64_t ticks) {
     constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
@@ -269,8 +274,23 @@ ModelLeaves::Rule::Rule(const LeafModel& model)
   }
   least_ticks = count(model.least_ticks);
   most_ticks = count(model.most_ticks);
+  enough_ticks = count(model.least_ticks - 1);
+  if (model.answers_late) be_late(model);
   in_a_tick = reaches_in_a_tick(model);
   while_held = reaches_while_held(model);
+}
+
+// What it does with each answer is what its model says. That one of them may count later shows only
+// where the model says when something has to happen.
+void ModelLeaves::Rule::be_late(const LeafModel& model) {
+  // It may stand still once where it would have to succeed, so steps alone are no limit.
+  if (model.least_step > 0 && model.finishes_full && model.has_progress && model.results.success &&
+      model.least_drift >= 0) {
+    const std::int64_t steps = (model.goal + model.least_step - 1) / model.least_step;
+    const auto most = static_cast<std::uint32_t>(std::max(steps, model.least_ticks));
+    most_ticks = most_ticks == 0 ? most : std::min(most_ticks, most);
+  }
+  if (model.writes_first()) enough_ticks = std::max(enough_ticks, 1u);
 }
 
 namespace {
@@ -306,8 +326,18 @@ std::vector<LevelReach> level_reaches(const LeafModel& model, std::int64_t least
 std::vector<LevelReach> reaches_in_a_tick(const LeafModel& model) {
   const auto end = static_cast<std::int32_t>(model.levels.size()) - 1;
   const bool ends_at_1 = model.levels.back() >= 1;
-  const std::int32_t last = model.finishes_full && ends_at_1 ? std::max(end - 1, 0) : end;
-  return level_reaches(model, model.least_step, model.most_step, last);
+  const bool stops_before = model.finishes_full && ends_at_1 && !model.answers_late;
+  const std::int32_t last = stops_before ? std::max(end - 1, 0) : end;
+  std::vector<LevelReach> reaches = level_reaches(model, model.least_step, model.most_step, last);
+  if (!model.answers_late) return reaches;
+  // Its success is there, perhaps with the last progress, and counts in the next tick.
+  for (std::int32_t level = 0; level <= end; ++level) {
+    LevelReach& reach = reaches[static_cast<std::size_t>(level)];
+    if (reach.may_succeed) reach.first = std::min(reach.first, level);
+    reach.must_succeed =
+        reach.must_succeed && model.steps[static_cast<std::size_t>(level)] >= model.goal;
+  }
+  return reaches;
 }
 
 std::vector<LevelReach> reaches_while_held(const LeafModel& model) {
@@ -327,6 +357,8 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   const LeafModel& model = models_.leaves[leaf];
   LeafMark& mark = this->mark(leaf);
   is(leaf, state.phase == Phase::Running, "tick without start, or while it is held");
+  // The first question has no answer yet, and a second one in a tick of the tree neither.
+  const bool may_wait = std::exchange(mark.is_open, rule.may_wait);
   if (mark.ticked && before_tick_again_) {
     before_tick_again_(leaf);
     mark.clear();
@@ -335,8 +367,12 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   if (is_outside(leaf)) return tick_outside(leaf);
   chooses_ = leaf;
   stage_ = 0;
+  if (may_wait && answers_.choose(2, leaf) == 1) return wait_for_answer(leaf);
+  if (rule.may_wait) ++stage_;
   ++state.ticks;
-  if (!rule.is_plain && model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
+  const bool writes = model.writes == Writes::InEachTick ||
+                      (model.writes == Writes::AtStart && model.answers_late && state.ticks == 1);
+  if (!rule.is_plain && writes && !model.outputs.empty()) write(leaf);
 
   const LevelReach& reach = rule.in_a_tick[state.level];
   const bool may_end = state.ticks >= rule.least_ticks;
@@ -386,6 +422,19 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   mark.result = Status::Running;
   mark.progress = progress_[leaf];
   if (rule.may_write) may_write(leaf);
+  return Status::Running;
+}
+
+// Progress counts as soon as it is there.
+Status ModelLeaves::wait_for_answer(std::uint32_t leaf) {
+  stage_ = kStageOfWait;
+  LeafMark& mark = this->mark(leaf);
+  const LevelReach& reach = rules_[leaf].in_a_tick[states_[leaf].level];
+  const std::int32_t first = std::min<std::int32_t>(reach.first, states_[leaf].level);
+  const auto count = static_cast<std::uint32_t>(reach.last - first + 1);
+  set_level(leaf, first + static_cast<std::int32_t>(answers_.choose(count, leaf)));
+  mark.result = Status::Running;
+  mark.progress = progress_[leaf];
   return Status::Running;
 }
 

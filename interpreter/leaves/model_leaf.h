@@ -54,6 +54,7 @@ inline constexpr std::uint32_t kNoWrite = 0xffffffff;
 struct LeafMark {
   bool touched = false;  // it has a mark at all
   bool ticked = false, ended = false;
+  bool is_open = false;  // it may wait: asked in this tick already, or not since its start or a cut
   bool faulted = false;
   bool drifted = false;                     // it was held before it, and may drift
   Status result = Status::Idle;             // of its tick
@@ -137,6 +138,7 @@ class ModelLeaves {
       visit(leaf);
       visit(marks_[leaf].ticked);
       visit(marks_[leaf].ended);
+      visit(marks_[leaf].is_open);
     }
   }
   // The facts, and which of them were asked for in this tick.
@@ -178,6 +180,7 @@ class ModelLeaves {
   void tell_broken(std::uint32_t leaf, const char* what);
   bool ask(std::uint32_t fact);
   Status tick_as_chosen(std::uint32_t leaf);
+  Status wait_for_answer(std::uint32_t leaf);
   Status tick_outside(std::uint32_t leaf);
   void write(std::uint32_t leaf);
   // Each output, or not.
@@ -193,13 +196,16 @@ class ModelLeaves {
   // All that most ticks read of a model.
   struct Rule {
     explicit Rule(const LeafModel& model);
+    void be_late(const LeafModel& model);
 
     const double* levels;
     std::uint32_t least_ticks, most_ticks;
+    std::uint32_t enough_ticks = 0;                 // without a most, more of them are the same
     std::vector<LevelReach> in_a_tick, while_held;  // from each level
     bool can_run;
     bool is_plain;                   // it has to do with no fact and no entry
     bool may_write, may_write_idle;  // in each tick, or not; and when it gets none
+    bool may_wait;                   // for an answer that counts later, which shows
     ResultSet results;
     std::vector<double> chances;  // of the results that it may have, in their order
   };

@@ -97,6 +97,7 @@ class ModelMaker {
       LeafModel& model = models_.leaves.emplace_back();
       model.node = tree_.leaves[i].node;
       model.can_run = type.can_run;
+      model.answers_late = type.answers_late && type.can_run;
       model.has_progress = type.has_progress && type.category == NodeCategory::Action;
       model.most_step = kNoEnd;
       if (type.category == NodeCategory::Control || type.category == NodeCategory::Decorator) {

@@ -28,6 +28,8 @@ struct LeafModel {
   std::int64_t least_ticks = 1;
   std::int64_t most_ticks = 0;  // 0: without end
   bool ends = true;
+  // Its answers may count a tick later than it gives them, so it may get a tick more.
+  bool answers_late = false;
   // The progress that it may have, rising from 0; 1 only if running with it is not the same as
   // having succeeded.
   std::vector<double> levels{0.0};
@@ -63,6 +65,13 @@ struct LeafModel {
 
   // The level of a leaf with this progress: the last one that it has reached.
   std::size_t level_of(double progress) const;
+  // Whether a tick without its answer is one that it would not have otherwise.
+  bool waits() const {
+    return answers_late && (most_ticks != 0 || least_step > 0 || writes_first());
+  }
+  bool writes_first() const {
+    return !outputs.empty() && (writes == Writes::AtStart || writes == Writes::InEachTick);
+  }
   bool drifts() const { return least_drift != 0 || most_drift != 0; }
   friend bool operator==(const LeafModel&, const LeafModel&) = default;
 };

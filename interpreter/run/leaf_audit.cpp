@@ -22,8 +22,10 @@ bool may_have(const ResultSet& results, Status status) {
 
 std::string allowed_ticks(const LeafModel& model) {
   if (model.most_ticks == 0) return fmt::format("{} or more", model.least_ticks);
-  if (model.most_ticks == model.least_ticks) return fmt::format("{}", model.least_ticks);
-  return fmt::format("{} to {}", model.least_ticks, model.most_ticks);
+  const std::string_view late =
+      model.answers_late ? ", and one more on the wall clock, since it is of a program" : "";
+  if (model.most_ticks == model.least_ticks) return fmt::format("{}{}", model.least_ticks, late);
+  return fmt::format("{} to {}{}", model.least_ticks, model.most_ticks, late);
 }
 
 // Rising; empty: one of the values is another one.
@@ -103,7 +105,7 @@ void LeafAudit::begin(const Moment& before) {
   for (Leaf& it : leaves_) {
     it.is_cut = before.status(it.node) == Status::Running;
     it.knows_begin = !it.is_cut;
-    it.ticks = 0;
+    it.ticks = it.open_ticks = 0;
     it.was_held = it.was_ticked = it.is_overdue = it.was_late = false;
   }
 }
@@ -220,7 +222,7 @@ void LeafAudit::look_at_outputs(const Moment& moment, std::span<const LeafCalls:
     if (model.writes == Writes::OnSuccess && !has_succeeded) {
       add(leaf, Assumption::Writes,
           fmt::format("wrote '{}' without a success, the leaf model has writes=\"success\"", key));
-    } else if (model.writes == Writes::AtStart && !has_begun) {
+    } else if (model.writes == Writes::AtStart && !has_begun && !leaf.has_just_begun) {
       add(leaf, Assumption::Writes,
           fmt::format("wrote '{}' after its start, the leaf model has writes=\"start\"", key));
     }
@@ -301,18 +303,24 @@ void LeafAudit::look(const Moment& moment, std::span<const LeafCalls::Call> call
   leaf.was_held = moment.held(leaf.node) && moment.within.rest.empty();
   if (!knows_before_) {  // it may have ended and begun again
     leaf.knows_begin = false;
-    leaf.ticks = 0;
+    leaf.ticks = leaf.open_ticks = 0;
   }
   const bool is_alone = calls.size() == 1 && moment.within.empty();
+  bool is_open = false;
+  leaf.has_just_begun = false;
   for (const LeafCalls::Call& call : calls) {
     if (call.begins) {
-      leaf.ticks = 0;
+      leaf.ticks = leaf.open_ticks = 0;
       if (knows_before_) leaf.progress = 0;  // else it may have run before
       leaf.is_overdue = leaf.was_late = false;
       leaf.knows_begin = knows_before_;
     }
     if (may_be_of_script(tree_, leaf.model->node, call.status, call.begins)) continue;
     ++leaf.ticks;
+    // A program has not answered in the first tick, and a second time in a tick of the tree.
+    const bool answers_late = leaf.model->answers_late;
+    if (answers_late && (std::exchange(is_open, true) || leaf.ticks == 1)) ++leaf.open_ticks;
+    leaf.has_just_begun = answers_late && leaf.ticks - leaf.open_ticks <= 1;
     if (std::exchange(leaf.is_cut, false)) continue;
     if (leaf.has_fault && call.status == Status::Failure) continue;
     count(leaf, call.status, is_alone);
@@ -323,7 +331,7 @@ void LeafAudit::look(const Moment& moment, std::span<const LeafCalls::Call> call
   }
   leaf.was_ticked = is_alone && moment.activity[leaf.node] == Activity::Running;
   if (moment.status(leaf.node) == Status::Running) return;
-  leaf.ticks = 0;
+  leaf.ticks = leaf.open_ticks = 0;
   leaf.has_fault = false;
 }
 
@@ -363,11 +371,12 @@ void LeafAudit::count(Leaf& leaf, Status status, bool is_alone) {
   // A leaf that cannot run ends in one tick, and one that cannot end as it may goes on.
   const bool is_early =
       has_result && model.can_run && leaf.knows_begin && leaf.ticks < model.least_ticks;
-  const bool is_late = std::exchange(leaf.is_overdue, false) && leaf.ticks > model.most_ticks;
+  const std::int64_t ticks = leaf.ticks - leaf.open_ticks;
+  const bool is_late = std::exchange(leaf.is_overdue, false) && ticks > model.most_ticks;
   const bool may_end = model.fact != kNoFact || model.results.failure || model.results.skipped ||
                        (may_succeed && (is_alone || !model.has_progress));
   // Where its success waits for the disk, it is Running without a call.
-  leaf.is_overdue = model.most_ticks != 0 && leaf.ticks >= model.most_ticks && may_end &&
+  leaf.is_overdue = model.most_ticks != 0 && ticks >= model.most_ticks && may_end &&
                     status == Status::Running && !leaf.was_late && !leaf.leaf->at_cut.commits;
   leaf.was_late |= is_late;
   if (is_early) {
@@ -377,7 +386,7 @@ void LeafAudit::count(Leaf& leaf, Status status, bool is_alone) {
   } else if (is_late) {
     add(leaf, Assumption::Ticks,
         fmt::format("takes more than {}, the leaf model allows {}",
-                    counted(static_cast<std::uint64_t>(model.most_ticks), "tick"),
+                    counted(static_cast<std::uint64_t>(model.most_ticks + leaf.open_ticks), "tick"),
                     allowed_ticks(model)));
   }
   const bool is_known = is_alone && leaf.knows_begin && model.has_progress;

@@ -54,10 +54,12 @@ class LeafAudit {
     std::vector<LevelReach> in_a_tick, while_held;
     std::vector<Output> outputs = {};
     std::int64_t ticks = 0;                     // of this activation
+    std::int64_t open_ticks = 0;                // of them: those whose answers may not be there
     bool knows_begin = true;                    // of it
     bool is_overdue = false, was_late = false;  // it must have ended; that was reported
     bool is_cut = false;                        // its next result may be by a cut
     bool has_fault = false;                     // see note_fault
+    bool has_just_begun = false;                // this tick may have its first answer
     bool was_held = false;                      // after the tick before
     bool was_ticked = false;                    // once, in the tick before, and it runs since
     double progress = 0;  // when that hold began, or at the start of that tick

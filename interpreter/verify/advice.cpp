@@ -99,6 +99,7 @@ LeafModels steady(LeafModels models) {
   for (LeafModel& leaf : models.leaves) {
     if (!leaf.can_run || !leaf.results.success) continue;
     leaf.results = {.success = true, .failure = false};
+    leaf.answers_late = false;
     leaf.least_ticks = std::max<std::int64_t>(leaf.least_ticks, leaf.has_progress ? 1 : 2);
     if (!leaf.has_progress) leaf.most_ticks = leaf.least_ticks;
     leaf.finishes_full = true;

@@ -61,6 +61,12 @@ std::vector<std::string> assumptions(const Tree& tree, const LeafModels& models,
   if (paces) {
     assumed.push_back("times of Wait, Timeout and Delay count in full where pace slows them");
   }
+  if (const auto count = std::ranges::count_if(models.leaves, &LeafModel::waits); count > 0) {
+    assumed.push_back(
+        fmt::format("programs answer before the next tick, so that on the wall clock their actions "
+                    "take one tick more than in the leaf model ({})",
+                    counted(static_cast<std::uint64_t>(count), "action")));
+  }
   if (models.slowed > 0) {
     assumed.push_back(fmt::format("a slowed leaf may take longer than in its leaf model ({})",
                                   counted(models.slowed, "action")));

@@ -108,6 +108,7 @@ bool TickPoints::add(const Ticker& ticker, const ModelLeaves& leaves, const Tick
     put(state.ticks);
     put(state.level);
     put(state.phase);
+    put(leaves.marks()[leaf].is_open);
   }
   put(ModelLeaves::kNobody);
   put(has_begun);

@@ -151,6 +151,7 @@ struct NodeType {
   bool can_be_restored = false;         // an action that may go on after a cut: docs/resume.md
   bool holds_first_child = false;       // a synchronized node that never holds the others
   bool is_of_robots = false;            // a group whose members run trees of their own
+  bool answers_late = false;            // an action whose answers may count a tick later: a program
   bool asks = false;                    // an action that waits for the answer of a person
   bool opens_entries = false;           // a leaf that uses entries that no port names
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do

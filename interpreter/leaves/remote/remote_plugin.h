@@ -59,6 +59,8 @@ class RemotePlugin {
   virtual ~RemotePlugin() = default;
   // With the proxies as its functions. Valid as long as this object.
   virtual const lockstep_plugin& entry() const = 0;
+  // Whether a tick on the wall clock leaves without the answer of an action.
+  virtual bool answers_late() const { return false; }
   // Calls init. Returns "" or the reason of a failure.
   virtual std::string initialize() { return {}; }
   // Those of the plugin itself, where it was asked for them.

@@ -251,6 +251,7 @@ bool PluginSet::accept(std::unique_ptr<RemotePlugin> remote, const Request& requ
   auto plugin = std::make_unique<Plugin>(Plugin{&remote->entry(), request.origin});
   plugin->descriptors.plugin.remote = remote.get();
   plugin->descriptors.plugin.describer = remote->describer();
+  plugin->descriptors.plugin.answers_late = remote->answers_late();
   plugin->remote = std::move(remote);
   return accept(std::move(plugin), 0, request, diagnostics);
 }

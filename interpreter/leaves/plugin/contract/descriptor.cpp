@@ -118,6 +118,7 @@ NodeType node_type_of(const HostedPlugin& plugin, const Descriptors::Leaf& leaf)
                   .has_progress = !is_action || leaf.type.progress != nullptr,
                   .can_be_slowed = is_action && leaf.type.set_pace != nullptr,
                   .can_be_restored = is_action && leaf.type.restore != nullptr,
+                  .answers_late = is_action && plugin.answers_late,
                   .opens_entries = (leaf.type.flags & LOCKSTEP_OPENS) != 0,
                   .plugin = plugin.name,
                   .more_parameters = text_or_empty(leaf.type.more_ports),

@@ -24,6 +24,7 @@ struct HostedPlugin : lockstep_plugin {
   RemotePlugin* remote = nullptr;      // null: its functions are the plugin's own
   LeafDescriber* describer = nullptr;  // null: leaf types describe elements themselves
   bool is_local = false;               // it cannot be isolated
+  bool answers_late = false;           // on the wall clock, a tick does not wait for an action
 };
 
 struct Descriptors {

@@ -28,6 +28,7 @@ class ProgramPlugin final : public RemotePlugin, private LeafDescriber {
 
   const lockstep_plugin& entry() const override { return hello_->plugin(); }
   LeafDescriber* describer() override { return this; }
+  bool answers_late() const override { return true; }
   std::string descriptions() override;
   std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
   const Hello& hello() const { return *hello_; }
