@@ -182,15 +182,49 @@ TEST_CASE("a part that is missing or cut is reported, with its place") {
   std::ignore = parts.file("run.0004.jsonl", last.substr(0, last.size() - 200));
   const Outcome cut = run_lockstep({"log", "csv", set});
   CHECK(cut.code == 0);
-  CHECK(contains(cut.err, "the recording is cut: line 3"));
+  CHECK(contains(cut.err, "the recording is cut: line 184 of '" + parts.path("run.0004.jsonl")));
   std::filesystem::remove(parts.path("run.0002.jsonl"));
   const Outcome outcome = run_lockstep({"log", "csv", set});
   CHECK(outcome.code == 3);
-  CHECK(
-      contains(outcome.err, "run.jsonl:1003: the next part begins with tick 2000, expected 1000"));
+  CHECK(contains(outcome.err,
+                 "run.0003.jsonl:1: the next part begins with tick 2000, expected 1000"));
   std::ignore = parts.file("run.0002.jsonl.zst", "");
   std::ignore = parts.file("run.0002.jsonl", "{\"lockstep_recording\":1}\n");
   CHECK(run_lockstep({"log", "csv", set}).code == 3);
+}
+
+TEST_CASE("an error in a recording of several parts names the part and its line, in each command") {
+  const TemporaryDirectory parts;
+  const std::string set = record(parts, "run.jsonl", {"--record-rotate", "10s"});
+  const std::string third = parts.path("run.0003.jsonl");
+  std::string text = read_file(third);
+  const auto tick = text.find("{\"tick\":2005,");
+  REQUIRE(tick != std::string::npos);
+  const auto line =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tick), '\n') + 1;
+  std::ignore = parts.file("run.0003.jsonl", text.replace(tick, 13, "{\"tick\":5"));
+  const std::string page = parts.path("page.html");
+  const std::vector<std::vector<std::string>> commands{
+      {"log", "info"},
+      {"log", "csv"},
+      {"log", "csv", "--from", "2003"},
+      {"log", "events"},
+      {"log", "measure"},
+      {"log", "scenario"},
+      {"log", "why"},
+      {"log", "check", "--property", "x: never serve.failure"},
+      {"log", "diff", set},
+      {"log", "page", "--out", page},
+      {"log", "page", "--from", "2003", "--out", page},
+      {"log", "export", "--format", "mcap", "--out", parts.path("run.mcap")},
+      {"replay", "--print", "--at", "2500"}};
+  for (std::vector<std::string> command : commands) {
+    command.push_back(set);
+    const Outcome outcome = run_lockstep(command);
+    INFO(command[0] << " " << command[1] << ": " << outcome.err);
+    CHECK(outcome.code == 3);
+    CHECK(contains(outcome.err, third + ":" + std::to_string(line) + ": "));
+  }
 }
 
 TEST_CASE("run --record-rotate: MCAP, and what is refused") {

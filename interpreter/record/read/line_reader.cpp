@@ -33,7 +33,8 @@ bool LineReader::read_line() {
     if (is_too_long()) break;
   }
   ++position_.lines;
-  position_.bytes += text_.size() + 1;
+  size_ = text_.size() + 1;
+  position_.bytes += size_;
   return !is_too_long();
 }
 
@@ -41,6 +42,7 @@ bool LineReader::go_to(const Position& position) {
   in_.clear();
   damage_.clear();
   position_ = position;
+  size_ = 0;
   try {
     return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(position.bytes)));
   } catch (const CannotDecompress& damage) {

@@ -1,6 +1,7 @@
 // Reads the lines of a stream, each with a limited number of bytes. Used by recording_reader.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <istream>
 #include <optional>
@@ -30,6 +31,10 @@ class LineReader {
     bool knows_lines = true;  // else `lines` is not known
   };
   const Position& position() const { return position_; }
+  // The first byte of the last line, or of the next one if that is damaged.
+  std::uint64_t begin_of_line() const {
+    return damage_.empty() ? position_.bytes - std::min(position_.bytes, size_) : position_.bytes;
+  }
   // Continues at an earlier position of this reader. Returns false if the stream cannot seek.
   bool go_to(const Position& position);
   // Continues with the first line that begins at this byte or after it. Likewise.
@@ -46,6 +51,7 @@ class LineReader {
   bool has_end_ = true;
   std::string damage_;
   Position position_;
+  std::uint64_t size_ = 0;  // bytes of the last line, with its end
 };
 
 }  // namespace lockstep::host

@@ -80,13 +80,27 @@ void RecordingParts::continue_with(const std::string& resumed) {
   is_resumed_ = true;
 }
 
-// An error names the part that has it.
-template <class Use>
-auto RecordingParts::in_part(Use use) {
+std::optional<RecordingParts::Place> RecordingParts::place_of(std::uint64_t byte) {
+  std::size_t part = 0;
+  std::uint64_t begin = 0;
   try {
-    return use();
-  } catch (const CannotDecompress& damage) {
-    throw CannotDecompress(fmt::format("in '{}', {}", parts_[at_].path, damage.what()));
+    while (part + 1 < parts_.size() && begin + size_of(part) <= byte) begin += size_of(part++);
+    // Lines without a file say where the one before them ends.
+    if (parts_[part].path.empty()) byte = begin == 0 ? 0 : begin - 1, begin -= size_of(--part);
+    DecompressedFile file(parts_[part].path);
+    std::uint64_t line = 1;
+    for (std::uint64_t left = byte - begin; left > 0;) {
+      const std::uint64_t most = std::min<std::uint64_t>(left, kRead);
+      std::string text(most, '\0');
+      const auto count =
+          file.text().rdbuf()->sgetn(text.data(), static_cast<std::streamsize>(most));
+      if (count <= 0) break;
+      line += static_cast<std::uint64_t>(std::count(text.begin(), text.begin() + count, '\n'));
+      left -= static_cast<std::uint64_t>(count);
+    }
+    return Place{parts_[part].path, line};
+  } catch (const CannotDecompress&) {
+    return Place{parts_[part].path};
   }
 }
 
@@ -113,10 +127,8 @@ std::size_t RecordingParts::read() {
   std::uint64_t most = text_.size();
   if (part.is_cut || !file_) most = std::min(most, *part.size - (end_ - begin_));
   if (!file_) return part.lines.copy(text_.data(), most, end_ - begin_);
-  return in_part([&] {
-    const auto count = static_cast<std::streamsize>(most);
-    return static_cast<std::size_t>(file_->text().rdbuf()->sgetn(text_.data(), count));
-  });
+  const auto count = static_cast<std::streamsize>(most);
+  return static_cast<std::size_t>(file_->text().rdbuf()->sgetn(text_.data(), count));
 }
 
 bool RecordingParts::knows_next() {
@@ -186,7 +198,7 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
     return position;
   }
   const auto there = static_cast<off_type>(place - begin);
-  const pos_type found = in_part([&] { return file_->text().rdbuf()->pubseekpos(there, which); });
+  const pos_type found = file_->text().rdbuf()->pubseekpos(there, which);
   if (off_type(found) < 0) return found;
   setg(nullptr, nullptr, nullptr);
   end_ = place;

@@ -14,10 +14,24 @@
 
 namespace lockstep::host {
 
-class RecordingParts final : public std::streambuf {
+// A text that may be in several files.
+class TextOfFiles : public std::streambuf {
+ public:
+  // The file that has a byte of the text, and the line in it.
+  struct Place {
+    std::string file;
+    std::uint64_t line = 0;  // from 1; 0: it cannot be counted
+  };
+  // May read the file again. Nothing: it is of one file.
+  virtual std::optional<Place> place_of(std::uint64_t byte) = 0;
+};
+
+class RecordingParts final : public TextOfFiles {
  public:
   // Its parts are beside where the recording would be: record/part_names.h.
   explicit RecordingParts(const std::string& recording);
+
+  std::optional<Place> place_of(std::uint64_t byte) override;
 
  private:
   // A file. Where a run continued after a cut, its text up to the first tick that the next part has
@@ -38,8 +52,6 @@ class RecordingParts final : public std::streambuf {
   std::size_t read();
   std::uint64_t size_of(std::size_t part);
   void continue_with(const std::string& resumed);
-  template <class Use>
-  auto in_part(Use use);
 
   const std::string recording_;
   std::vector<Part> parts_;

@@ -11,7 +11,10 @@
 namespace lockstep::host {
 
 RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limits)
-    : lines_(in, limits.line), format_(std::make_unique<RecordingJson>()), name_(std::move(name)) {
+    : lines_(in, limits.line),
+      files_(dynamic_cast<TextOfFiles*>(in.rdbuf())),
+      format_(std::make_unique<RecordingJson>()),
+      name_(std::move(name)) {
   if (!next_line()) {
     if (error_.empty()) error_ = name_ + ":1: the file is empty, expected a recording";
     return;
@@ -157,6 +160,11 @@ std::string RecordingReader::gaps() const {
 
 std::string RecordingReader::cut() const {
   if (!is_read_ || end_ || is_part_over_ || !error_.empty()) return {};
+  if (const auto of_part = place(); of_part && of_part->line > 0) {
+    const std::string of_file = fmt::format("line {} of '{}'", of_part->line, of_part->file);
+    return is_cut_ ? of_file + " is cut, the run did not end there"
+                   : fmt::format("it ends after {} without a closing line", of_file);
+  }
   const std::uint64_t line = lines_.position().lines;
   if (!lines_.position().knows_lines) {
     return is_cut_ ? "its last line is cut, the run did not end there"
@@ -188,8 +196,19 @@ void RecordingReader::read_line(Read read) {
   }
 }
 
+// A line of a recording of several files is one of one of them.
+std::optional<TextOfFiles::Place> RecordingReader::place() const {
+  if (files_ == nullptr) return std::nullopt;
+  return files_->place_of(lines_.begin_of_line());
+}
+
 void RecordingReader::fail(const std::string& message) {
   const LineReader::Position& at = lines_.position();
+  if (const auto of_part = place()) {
+    error_ = of_part->line == 0 ? fmt::format("{}: {}", of_part->file, message)
+                                : fmt::format("{}:{}: {}", of_part->file, of_part->line, message);
+    return;
+  }
   error_ = at.knows_lines
                ? fmt::format("{}:{}: {}", name_, std::max<std::uint64_t>(at.lines, 1), message)
                : fmt::format("{}: before byte {}: {}", name_, at.bytes, message);

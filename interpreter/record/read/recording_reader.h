@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "record/read/line_reader.h"
+#include "record/read/recording_parts.h"
 #include "record/recording.h"
 
 namespace lockstep::host {
@@ -55,7 +56,8 @@ class RecordingReader {
   // that cannot be sought, nothing is left out.
   void skip_to(std::uint64_t tick);
 
-  // "" if there is no error, else "run.jsonl:12: no node 99, expected 0 to 4".
+  // "" if there is no error, else "run.jsonl:12: no node 99, expected 0 to 4". Of a recording in
+  // several files, it is the file and its line.
   const std::string& error() const { return error_; }
   const RecordingHeader& header() const { return header_; }
   // The closing line, once it has been read.
@@ -95,9 +97,11 @@ class RecordingReader {
   void begin_part();
   void take(RecordedEnd end);
   void pass_ticks(std::uint64_t first, std::uint64_t count);
+  std::optional<TextOfFiles::Place> place() const;
   void fail(const std::string& message);
 
   LineReader lines_;
+  TextOfFiles* const files_;  // which have the text; null: it is of one
   std::unique_ptr<RecordingJson> format_;
   std::string name_;
   std::string error_;

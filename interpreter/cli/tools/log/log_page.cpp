@@ -14,6 +14,7 @@
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
 #include "cli/tools/log/reading_progress.h"
+#include "record/read/recording_parts.h"
 #include "show/web/page.h"
 
 namespace lockstep::host {
@@ -26,12 +27,17 @@ struct LogPageOptions {
 };
 
 // Reads another stream, and gives all that it reads to someone else too.
-class CopiedInput final : public std::streambuf {
+class CopiedInput final : public TextOfFiles {
  public:
   // Returns false to end the input.
   using Take = std::function<bool(std::string_view)>;
 
   CopiedInput(std::streambuf& in, Take take) : in_(in), take_(std::move(take)) {}
+
+  std::optional<Place> place_of(std::uint64_t byte) override {
+    auto* const files = dynamic_cast<TextOfFiles*>(&in_);
+    return files != nullptr ? files->place_of(byte) : std::nullopt;
+  }
 
  private:
   int_type underflow() override {
