@@ -100,6 +100,7 @@ struct CheckedTrees {
   std::vector<WrittenAttribute> written;
   std::vector<CheckedScript> scripts;
   std::unordered_map<std::string_view, std::shared_ptr<const Expression>> compiled;  // by the text
+  std::vector<std::uint32_t> shared = {};         // of expand(): by a first port, those made of it
   std::list<std::string> texts;                   // that are not as the documents have them
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents

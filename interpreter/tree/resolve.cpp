@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
 #include "base/core/audience.h"
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
@@ -19,9 +22,39 @@
 namespace lockstep::host {
 namespace {
 
+bool has_models(const Project& project, const ResolveOptions& options) {
+  return project.rules->may_lack_nodes || options.unknown == MissingNodes::AreMocked;
+}
+
+}  // namespace
+
+TreesOfProject::TreesOfProject(const Project& project, const Catalog& catalog,
+                               ResolveOptions options, Diagnostics& diagnostics)
+    : project_(project),
+      options_(std::move(options)),
+      report_(project.sources, diagnostics),
+      models_(has_models(project, options_) ? read_models(project, report_) : Models()),
+      known_(catalog),
+      stand_ins_(add_stand_ins(project, models_, options_.unknown, options_.mocks,
+                               options_.mock_outputs, options_.elsewhere, known_, report_)),
+      trees_(project.rules->reader->read(project, known_, models_, diagnostics)) {
+  trees_.names_at_run_time |= options_.opens_entries;
+  trees_.shares_entries |= options_.opens_entries;
+  trees_.has_outside = options_.has_outside;
+  trees_.team_member = known_.find(kTeamMember);
+  trees_.team_resources = known_.find(kTeamResources);
+  main_ = choose_main();
+  std::vector<std::string_view> others(options_.elsewhere.begin(), options_.elsewhere.end());
+  others.insert(others.end(), project.library_trees.begin(), project.library_trees.end());
+  is_expandable_ = check_references(trees_, report_, std::move(others));
+}
+
 // The ID of the tree to run; nothing after an error, or if the file may be without one.
-std::optional<std::string_view> choose_main(const CheckedTrees& trees, bool has_content,
-                                            const ResolveOptions& options, const Reporter& report) {
+std::optional<std::string_view> TreesOfProject::choose_main() const {
+  const CheckedTrees& trees = trees_;
+  const ResolveOptions& options = options_;
+  const Reporter& report = report_;
+  const bool has_content = project_.documents.front()->elements().size() > 1;
   const auto& main = trees.main;
   const std::string_view given = options.main_tree;
   if (trees.ids.empty()) {
@@ -70,53 +103,58 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, bool has_
   return std::nullopt;
 }
 
-}  // namespace
+Definition TreesOfProject::expanded(std::string_view id) {
+  Definition definition =
+      expand(trees_, id, options_.values, report_, Expansion::OfMain, options_.later);
+  definition.stand_ins = stand_ins_;
+  definition.properties = std::move(trees_.properties);
+  trees_.properties.clear();
+  return definition;
+}
+
+bool TreesOfProject::finish(Definition& definition) const {
+  resolve_resources(definition, report_);
+  resolve_readings(definition, report_);
+  if (report_.has_errors()) return false;
+  check_groups(definition, report_);
+  if (report_.has_errors()) return false;
+  mark_slowed(definition);
+  return true;
+}
+
+bool TreesOfProject::use(std::string_view id, const std::function<void(const Definition&)>& use) {
+  const auto tree = trees_.trees.find(id);
+  if (!is_expandable_ || tree == trees_.trees.end()) return false;
+  Definition definition = expanded(tree->first);
+  const bool is_correct = finish(definition);
+  if (is_correct) use(definition);
+  take_back(trees_, std::move(definition));
+  return is_correct;
+}
+
+std::optional<Definition> TreesOfProject::main() {
+  if (is_expandable_ && !main_ && options_.may_lack_main) check_unused(trees_, {}, report_);
+  if (!is_expandable_ || !main_) return std::nullopt;
+  Definition definition = expanded(*main_);
+  if (project_.rules->checks_unused_trees) {
+    trees_.values = definition.values;
+    check_unused(trees_, *main_, report_);
+  }
+  if (!finish(definition)) return std::nullopt;
+  advise(definition, report_);
+  advise_holds(definition, report_);
+  advise_resources(definition, report_);
+  note_openings(definition, report_);
+  note_unfairness(definition, report_);
+  note_handovers(definition, report_);
+  note_unused_holds(definition, report_);
+  advise_paces(definition, report_);
+  return definition;
+}
 
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics) {
-  const Reporter report(project.sources, diagnostics);
-  const LanguageRules& rules = *project.rules;
-  const bool has_models = rules.may_lack_nodes || options.unknown == MissingNodes::AreMocked;
-  const auto models = has_models ? read_models(project, report) : Models();
-  Catalog known = catalog;
-  const auto stand_ins = add_stand_ins(project, models, options.unknown, options.mocks,
-                                       options.mock_outputs, options.elsewhere, known, report);
-  CheckedTrees trees = rules.reader->read(project, known, models, diagnostics);
-  trees.names_at_run_time |= options.opens_entries;
-  trees.shares_entries |= options.opens_entries;
-  trees.has_outside = options.has_outside;
-  trees.team_member = known.find(kTeamMember);
-  trees.team_resources = known.find(kTeamResources);
-  const bool has_content = project.documents.front()->elements().size() > 1;
-  const auto main = choose_main(trees, has_content, options, report);
-  std::vector<std::string_view> others(options.elsewhere.begin(), options.elsewhere.end());
-  others.insert(others.end(), project.library_trees.begin(), project.library_trees.end());
-  const bool is_expandable = check_references(trees, report, std::move(others));
-  if (is_expandable && !main && options.may_lack_main) check_unused(trees, {}, report);
-  if (!is_expandable || !main) return std::nullopt;
-  Definition definition =
-      expand(trees, *main, options.values, report, Expansion::OfMain, options.later);
-  definition.stand_ins = stand_ins;
-  definition.properties = std::move(trees.properties);
-  if (rules.checks_unused_trees) {
-    trees.values = definition.values;
-    check_unused(trees, *main, report);
-  }
-  resolve_resources(definition, report);
-  resolve_readings(definition, report);
-  if (report.has_errors()) return std::nullopt;
-  check_groups(definition, report);
-  if (report.has_errors()) return std::nullopt;
-  mark_slowed(definition);
-  advise(definition, report);
-  advise_holds(definition, report);
-  advise_resources(definition, report);
-  note_openings(definition, report);
-  note_unfairness(definition, report);
-  note_handovers(definition, report);
-  note_unused_holds(definition, report);
-  advise_paces(definition, report);
-  return definition;
+  return TreesOfProject(project, catalog, options, diagnostics).main();
 }
 
 }  // namespace lockstep::host

@@ -532,6 +532,57 @@ TEST_CASE("convert warns of a child that may be skipped, where the languages dif
   CHECK(contains(delay(skipped), "the time is not waited for again"));
 }
 
+TEST_CASE("convert: the time is in proportion to the size of the file") {
+  const TemporaryDirectory directory;
+  const auto seconds = [&](const std::string& text) {
+    const Outcome outcome = run_lockstep({"convert", directory.file("tree.xml", text)});
+    CHECK(outcome.code == 0);
+    return outcome.cpu_seconds;
+  };
+  const std::string begin = "<root lockstep=\"1\" main_tree_to_execute=\"M\">\n";
+  const auto with_arguments = [&](int count) {
+    std::string declared = begin, used;
+    for (int i = 0; i < count; ++i) {
+      const std::string name = "p" + std::to_string(i);
+      declared += "<arg name=\"" + name + "\" default=\"1\"/>\n";
+      used += "<AlwaysSuccess name=\"${" + name + "}\"/>\n";
+    }
+    return declared + "<BehaviorTree ID=\"M\"><Sequence>" + used +
+           "</Sequence></BehaviorTree></root>";
+  };
+  // Each has the next one, which the file has before it, and all of them may be held.
+  const auto with_subtrees = [&](int count) {
+    std::string text = begin;
+    for (int i = count; i-- > 0;) {
+      text += "<BehaviorTree ID=\"S" + std::to_string(i) + "\"><IfThenElse><Wait seconds=\"1\"/>";
+      text +=
+          i + 1 < count ? "<SubTree ID=\"S" + std::to_string(i + 1) + "\"/>" : "<AlwaysSuccess/>";
+      text += "</IfThenElse></BehaviorTree>\n";
+    }
+    return text +
+           "<BehaviorTree ID=\"M\"><ParallelAbsolute><SubTree ID=\"S0\"/>"
+           "</ParallelAbsolute></BehaviorTree></root>";
+  };
+  const double few_arguments = seconds(with_arguments(8000));
+  const double many_arguments = seconds(with_arguments(32000));
+  INFO(few_arguments << " s, " << many_arguments << " s");
+  CHECK(many_arguments < 9 * few_arguments);
+  const double few_trees = seconds(with_subtrees(8000)), many_trees = seconds(with_subtrees(32000));
+  INFO(few_trees << " s, " << many_trees << " s");
+  CHECK(many_trees < 9 * few_trees);
+  // A condition that has each tree twice, with 60 of them below each other.
+  std::string doubled = begin;
+  for (int i = 0; i < 60; ++i) {
+    const std::string next = "<SubTree ID=\"S" + std::to_string(i + 1) + "\"/>";
+    doubled += "<BehaviorTree ID=\"S" + std::to_string(i) + "\"><Sequence>" + next + next +
+               "</Sequence></BehaviorTree>\n";
+  }
+  seconds(doubled +
+          "<BehaviorTree ID=\"S60\"><AlwaysSuccess/></BehaviorTree><BehaviorTree ID=\"M\">"
+          "<IfThenElse><SubTree ID=\"S0\"/><AlwaysSuccess/></IfThenElse></BehaviorTree>"
+          "</root>");
+}
+
 TEST_CASE("convert keeps the blackboard of a SubTree of version 3") {
   const TemporaryDirectory directory;
   for (const char* word : {"__autoremap", "__shared_blackboard", "_autoremap"}) {

@@ -225,6 +225,39 @@ TEST_CASE("diff: files with trees for other files are compared tree by tree") {
   CHECK(run_lockstep({"diff", a, b, "--tree", "A", "--format", "svg"}).code == 1);
 }
 
+TEST_CASE("diff: a property of files with trees for other files is compared once") {
+  const TemporaryDirectory directory;
+  const auto file = [&](const std::string& name, const std::string& result) {
+    return directory.file(
+        name, "<root lockstep=\"1\"><property name=\"p\">never Wait." + result +
+                  "</property><BehaviorTree ID=\"A\"><Wait seconds=\"1\"/></BehaviorTree>"
+                  "<BehaviorTree ID=\"B\"><Wait seconds=\"1\"/></BehaviorTree></root>");
+  };
+  const Outcome outcome = run_lockstep({"diff", file("a.xml", "failure"), file("b.xml", "idle")});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.out, "Wait.idle"));
+  CHECK(outcome.out.find("Wait.idle") == outcome.out.rfind("Wait.idle"));
+}
+
+TEST_CASE("diff: the time for files with many trees is in proportion to their number") {
+  const TemporaryDirectory directory;
+  const auto seconds = [&](int trees) {
+    std::string text = "<root lockstep=\"1\">\n";
+    for (int tree = 0; tree < trees; ++tree) {
+      text += "<BehaviorTree ID=\"T" + std::to_string(tree) +
+              "\"><Sequence><Wait seconds=\"1\"/><Wait seconds=\"2\"/></Sequence></BehaviorTree>\n";
+    }
+    const std::string file = directory.file("many.xml", text + "</root>");
+    const Outcome outcome = run_lockstep({"diff", file, file});
+    CHECK(outcome.code == 0);
+    return outcome.cpu_seconds;
+  };
+  const double few = seconds(2000), many = seconds(8000);
+  INFO(few << " s, " << many << " s");
+  CHECK(many < 9 * few);
+}
+
 TEST_CASE("diff: exit codes for what cannot be compared") {
   const TemporaryDirectory directory;
   const std::string a = directory.file("a.xml", kTree), bad = directory.file("bad.xml", "<root");

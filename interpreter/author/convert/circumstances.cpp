@@ -9,7 +9,7 @@
 namespace lockstep::host {
 namespace {
 
-constexpr int kMostSubtrees = 64;  // one in the other
+constexpr int kMostNested = 4000;  // behind SubTrees, too
 
 // Its children are held at times.
 bool is_synchronized(std::string_view type) {
@@ -24,11 +24,22 @@ Circumstances::Circumstances(const Document& document, const Conversion& convers
     : document_(document),
       conversion_(conversion),
       elements_(document.elements()),
-      is_held_(elements_.size()) {
+      is_held_(elements_.size()),
+      skips_(elements_.size()) {
+  for (const std::uint32_t part : children_in(elements_, 0)) {
+    const Attribute* id = document_.find_attribute(part, "ID");
+    if (elements_[part].tag == "BehaviorTree" && id != nullptr) trees_.emplace(id->value, part);
+    if (elements_[part].tag != "TreeNodesModel") continue;
+    for (const std::uint32_t model : children_in(elements_, part)) {
+      const Attribute* of_model = document_.find_attribute(model, "ID");
+      if (of_model == nullptr || elements_[model].tag != "Action") continue;
+      modeled_actions_.insert(of_model->value);
+    }
+  }
   find_held();
 }
 
-bool Circumstances::apply(btcpp::When when, std::uint32_t element) const {
+bool Circumstances::apply(btcpp::When when, std::uint32_t element) {
   const std::uint32_t first = element + 1;
   const bool has_child = first < elements_[element].end;
   switch (when) {
@@ -39,7 +50,7 @@ bool Circumstances::apply(btcpp::When when, std::uint32_t element) const {
     case btcpp::When::ConditionRuns:
       return has_child && may_run(first);
     case btcpp::When::FirstIsSkipped:
-      return has_child && may_be_skipped(first, kMostSubtrees);
+      return has_child && skips(first) == Skips::Script;
     case btcpp::When::FirstIsDecided:
       return has_child && is_decided_by_script(first);
   }
@@ -56,13 +67,8 @@ std::uint32_t Circumstances::tree_of(std::uint32_t subtree) const {
   const Attribute* id = document_.find_attribute(subtree, "ID");
   const std::string_view type = elements_[subtree].tag;
   if (id == nullptr || (type != "SubTree" && type != "SubTreePlus")) return 0;
-  for (const std::uint32_t tree : children_in(elements_, 0)) {
-    const Attribute* name = document_.find_attribute(tree, "ID");
-    if (elements_[tree].tag == "BehaviorTree" && name != nullptr && name->value == id->value) {
-      return tree;
-    }
-  }
-  return 0;
+  const auto tree = trees_.find(id->value);
+  return tree == trees_.end() ? 0 : tree->second;
 }
 
 bool Circumstances::has_script(std::uint32_t element, Hook hook) const {
@@ -73,21 +79,20 @@ bool Circumstances::has_script(std::uint32_t element, Hook hook) const {
 }
 
 void Circumstances::find_held() {
+  std::vector<std::uint32_t> subtrees;  // in what is held, whose trees are to be looked at
   const auto hold = [&](std::uint32_t element) {
-    for (std::uint32_t it = element + 1; it < elements_[element].end; ++it) is_held_[it] = true;
+    for (std::uint32_t it = element + 1; it < elements_[element].end; ++it) {
+      if (!is_held_[it] && tree_of(it) != 0) subtrees.push_back(it);
+      is_held_[it] = true;
+    }
   };
-  std::vector<std::uint32_t> subtrees;  // whose trees are to be looked at
   for (std::uint32_t element = 0; element < elements_.size(); ++element) {
     if (!is_held_[element] && is_synchronized(type_of(element))) hold(element);
   }
-  for (bool changes = true; changes;) {
-    changes = false;
-    for (std::uint32_t element = 0; element < elements_.size(); ++element) {
-      const std::uint32_t tree = is_held_[element] ? tree_of(element) : 0;
-      if (tree == 0 || tree + 1 >= elements_[tree].end || is_held_[tree + 1]) continue;
-      hold(tree);
-      changes = true;
-    }
+  while (!subtrees.empty()) {
+    const std::uint32_t tree = tree_of(subtrees.back());
+    subtrees.pop_back();
+    if (tree + 1 < elements_[tree].end && !is_held_[tree + 1]) hold(tree);
   }
 }
 
@@ -101,34 +106,37 @@ bool Circumstances::may_run(std::uint32_t element) const {
 }
 
 bool Circumstances::is_modeled_action(std::string_view type) const {
-  for (const std::uint32_t part : children_in(elements_, 0)) {
-    if (elements_[part].tag != "TreeNodesModel") continue;
-    for (const std::uint32_t model : children_in(elements_, part)) {
-      const Attribute* id = document_.find_attribute(model, "ID");
-      if (id != nullptr && id->value == type && elements_[model].tag == "Action") return true;
-    }
-  }
-  return false;
+  return modeled_actions_.contains(type);
 }
 
-// By a script of it, or of all that it consists of.
-bool Circumstances::may_be_skipped(std::uint32_t element, int most_subtrees) const {
-  if (has_script(element, Hook::SkipIf) || has_script(element, Hook::While)) return true;
-  const auto skips = [&](std::uint32_t it) { return may_be_skipped(it, most_subtrees); };
+Circumstances::Skips Circumstances::skips(std::uint32_t element) {
+  if (skips_[element] == Skips::Unknown) {
+    skips_[element] = Skips::Nothing;  // for a tree that contains itself
+    if (levels_ == kMostNested) return Skips::Nothing;
+    ++levels_;
+    skips_[element] = find_skips(element);
+    --levels_;
+  }
+  return skips_[element];
+}
+
+// A script of it, or what skips all that it consists of.
+Circumstances::Skips Circumstances::find_skips(std::uint32_t element) {
+  if (has_script(element, Hook::SkipIf) || has_script(element, Hook::While)) return Skips::Script;
   if (const std::uint32_t tree = tree_of(element); tree != 0) {
-    const bool has_root = tree + 1 < elements_[tree].end;
-    return most_subtrees > 0 && has_root && may_be_skipped(tree + 1, most_subtrees - 1);
+    return tree + 1 < elements_[tree].end ? skips(tree + 1) : Skips::Nothing;
   }
   const std::string_view type = type_of(element);
+  if (type == "KeepRunningUntilFailure" || type.starts_with("SubTree")) return Skips::Nothing;
+  if (element + 1 == elements_[element].end) return Skips::Nothing;
   const bool is_branch =
       type == "IfThenElse" || type == "WhileDoElse" || type.starts_with("Switch");
-  bool any = false, all = true;
+  Skips any = Skips::Nothing, all = Skips::Script;
   for (const std::uint32_t child : children_in(elements_, element)) {
-    const bool is_skipped = skips(child);
-    any |= is_skipped;
-    all &= is_skipped;
+    any = std::max(any, skips(child));
+    all = std::min(all, skips(child));
   }
-  return any && (all || is_branch) && type != "KeepRunningUntilFailure";
+  return is_branch ? any : all;
 }
 
 bool Circumstances::is_decided_by_script(std::uint32_t element) const {

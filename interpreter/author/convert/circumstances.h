@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "author/convert/convert.h"
@@ -16,7 +18,7 @@ class Circumstances {
  public:
   Circumstances(const Document& document, const Conversion& conversion);
 
-  bool apply(btcpp::When when, std::uint32_t element) const;
+  bool apply(btcpp::When when, std::uint32_t element);
 
  private:
   std::string_view type_of(std::uint32_t element) const;
@@ -26,13 +28,20 @@ class Circumstances {
   void find_held();
   bool may_run(std::uint32_t element) const;
   bool is_modeled_action(std::string_view type) const;
-  bool may_be_skipped(std::uint32_t element, int most_subtrees) const;
+  // What may skip an element: nothing, a script.
+  enum class Skips : std::uint8_t { Unknown, Nothing, Script };
+  Skips skips(std::uint32_t element);
+  Skips find_skips(std::uint32_t element);
   bool is_decided_by_script(std::uint32_t element) const;
 
   const Document& document_;
   const Conversion& conversion_;
   std::span<const Element> elements_;
+  std::unordered_map<std::string_view, std::uint32_t> trees_;  // of each ID: the first
+  std::unordered_set<std::string_view> modeled_actions_;
   std::vector<bool> is_held_;  // below a synchronized node, also by way of a SubTree
+  std::vector<Skips> skips_;   // as far as it is known
+  int levels_ = 0;             // of skips(), one in the other
 };
 
 }  // namespace lockstep::host

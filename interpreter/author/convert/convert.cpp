@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,17 @@ bool reads_nodes(const Document& document) {
   return false;
 }
 
+// The first 'arg' element of each name.
+std::unordered_map<std::string_view, std::uint32_t> declarations(const Document& document) {
+  std::unordered_map<std::string_view, std::uint32_t> found;
+  const auto elements = document.elements();
+  for (const std::uint32_t child : children_in(elements, 0)) {
+    const Attribute* name = document.find_attribute(child, "name");
+    if (elements[child].tag == "arg" && name != nullptr) found.emplace(name->value, child);
+  }
+  return found;
+}
+
 class Converter {
  public:
   Converter(const Document& document, const Conversion& conversion, const Reporter& report)
@@ -64,7 +76,8 @@ class Converter {
         circumstances_(document, conversion),
         text_(document.source()->text()),
         scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict),
-        reads_nodes_(reads_nodes(document)) {}
+        reads_nodes_(reads_nodes(document)),
+        declarations_(declarations(document)) {}
 
   std::optional<std::string> convert() {
     bool before_end = true;
@@ -253,12 +266,8 @@ class Converter {
 
   // The 'arg' element of that name; 0 if there is none.
   std::uint32_t declaration_of(std::string_view argument) const {
-    const auto elements = document_.elements();
-    for (const std::uint32_t child : children_in(elements, 0)) {
-      const Attribute* name = document_.find_attribute(child, "name");
-      if (elements[child].tag == "arg" && name != nullptr && name->value == argument) return child;
-    }
-    return 0;
+    const auto it = declarations_.find(argument);
+    return it == declarations_.end() ? 0 : it->second;
   }
 
   // Releases before 4.8.4 take it, and lockstep does.
@@ -690,10 +699,11 @@ class Converter {
   const Document& document_;
   const Conversion& conversion_;
   const Reporter& report_;
-  const Circumstances circumstances_;
+  Circumstances circumstances_;
   std::string_view text_;
   Scanner scanner_;
   const bool reads_nodes_;
+  const std::unordered_map<std::string_view, std::uint32_t> declarations_;  // of arguments: 'arg'
   TextEdit edits_;
   std::vector<Open> open_;
   std::uint32_t next_ = 0;          // element

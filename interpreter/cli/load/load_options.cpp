@@ -170,14 +170,12 @@ void add_mock_options(CLI::App& app, LoadCommandOptions& options) {
   add_mock_output(app, options);
 }
 
-tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
-                                             const LoadCommandOptions& options,
-                                             Diagnostics& diagnostics,
-                                             std::shared_ptr<PluginSet> plugins) {
-  keep_freed_memory();
+namespace {
+
+LoadOptions given_options(const std::string& path, const LoadCommandOptions& options,
+                          Diagnostics& diagnostics) {
   const bool mocks = options.mock || !options.mock_leaves.empty() || !options.mock_outputs.empty();
-  watch_this_thread(from_seconds(options.plugins.hang_limit));
-  const LoadOptions load_options = with_project_file(
+  return with_project_file(
       path,
       {.plugins = options.plugins,
        .arguments = parse_pairs(options.arguments, "--arg", diagnostics),
@@ -193,6 +191,25 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
        .elsewhere = options.elsewhere,
        .library = options.library},
       diagnostics);
+}
+
+}  // namespace
+
+tl::expected<LoadedTrees, LoadFailure> load_trees_given(const std::string& path,
+                                                        const LoadCommandOptions& options,
+                                                        Diagnostics& diagnostics,
+                                                        std::shared_ptr<PluginSet> plugins) {
+  return load_trees(path, options.text, given_options(path, options, diagnostics), diagnostics,
+                    std::move(plugins));
+}
+
+tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
+                                             const LoadCommandOptions& options,
+                                             Diagnostics& diagnostics,
+                                             std::shared_ptr<PluginSet> plugins) {
+  keep_freed_memory();
+  watch_this_thread(from_seconds(options.plugins.hang_limit));
+  const LoadOptions load_options = given_options(path, options, diagnostics);
   auto loaded = options.text
                     ? load_text(path, *options.text, load_options, diagnostics, std::move(plugins))
                     : load(path, load_options, diagnostics, std::move(plugins));

@@ -50,6 +50,11 @@ void add_mock_options(CLI::App& app, LoadCommandOptions& options);
     const std::string& path, const LoadCommandOptions& options, Diagnostics& diagnostics,
     std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());
 
+// The same with load_trees(). `diagnostics` must outlive what is returned.
+[[nodiscard]] tl::expected<LoadedTrees, LoadFailure> load_trees_given(
+    const std::string& path, const LoadCommandOptions& options, Diagnostics& diagnostics,
+    std::shared_ptr<PluginSet> plugins);
+
 int exit_code_of(LoadFailure failure);
 
 }  // namespace lockstep::host

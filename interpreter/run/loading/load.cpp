@@ -52,6 +52,12 @@ bool add_team_plugin(PluginSet& plugins, Diagnostics& diagnostics) {
   return plugins.add(team_plugin(), kOrigin, diagnostics);
 }
 
+ResolveOptions resolve_options(const LoadOptions& options) {
+  return {options.main_tree,     options.values,       options.later,         options.unknown,
+          options.mocks,         options.mock_outputs, options.opens_entries, options.has_outside,
+          options.may_lack_main, options.is_part,      options.elsewhere};
+}
+
 tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const LoadOptions& options,
                                        Diagnostics& diagnostics,
                                        std::shared_ptr<PluginSet> plugins) {
@@ -108,18 +114,34 @@ tl::expected<Meaning, LoadFailure> meaning_of(const Project* project, const Load
   std::optional<Definition> definition;
   if (project != nullptr) {
     warn_of_shadowed(*plugins.plugins, *project->rules, diagnostics);
-    definition =
-        resolve(*project, make_catalog(*plugins.plugins, *project->rules),
-                {options.main_tree, options.values, options.later, options.unknown, options.mocks,
-                 options.mock_outputs, options.opens_entries, options.has_outside,
-                 options.may_lack_main, options.is_part, options.elsewhere},
-                diagnostics);
+    definition = resolve(*project, make_catalog(*plugins.plugins, *project->rules),
+                         resolve_options(options), diagnostics);
   }
   if (const auto wrong = failure_of(project, diagnostics)) return tl::unexpected(*wrong);
   if (!definition) return tl::unexpected(LoadFailure::NothingToRun);
   auto properties = tree_properties(*definition, Reporter(project->sources, diagnostics));
   if (const auto wrong = failure_of(project, diagnostics)) return tl::unexpected(*wrong);
   return Meaning{std::move(definition).value(), std::move(properties)};
+}
+
+tl::expected<LoadedTrees, LoadFailure> load_trees(const std::string& path,
+                                                  const std::optional<std::string>& text,
+                                                  const LoadOptions& options,
+                                                  Diagnostics& diagnostics,
+                                                  std::shared_ptr<PluginSet> plugins) {
+  auto project = text ? load_project_text(path, *text, options, diagnostics)
+                      : load_project(path, options.arguments, diagnostics, options.main_file,
+                                     ros_packages(options), options.library.get());
+  LoadedPlugins loaded = load_plugins(project.get(), options, std::move(plugins));
+  const auto failed = failure_of(project.get(), diagnostics);
+  for (const Diagnostic& it : loaded.messages.all()) diagnostics.add(it);
+  if (!loaded.are_all) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
+  if (failed) return tl::unexpected(*failed);
+  auto trees =
+      std::make_unique<TreesOfProject>(*project, make_catalog(*loaded.plugins, *project->rules),
+                                       resolve_options(options), diagnostics);
+  if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
+  return LoadedTrees{std::move(loaded.plugins), std::move(project), std::move(trees)};
 }
 
 Runnable make_runnable(Loaded loaded) {

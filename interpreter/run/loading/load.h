@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "run/loading/plugins.h"
 #include "tree/check/stand_ins.h"
 #include "tree/expand/expand.h"
+#include "tree/resolve.h"
 
 namespace lockstep::host {
 
@@ -86,6 +88,17 @@ struct Meaning {
                                                             const LoadedPlugins& plugins,
                                                             const LoadOptions& options,
                                                             Diagnostics& diagnostics);
+
+// For who takes each tree of a project for itself. The objects refer to each other.
+struct LoadedTrees {
+  std::shared_ptr<PluginSet> plugins;
+  std::unique_ptr<Project> project;
+  std::unique_ptr<TreesOfProject> trees;
+};
+// As load(); `text`: in place of the main file. `diagnostics` must outlive what is returned.
+[[nodiscard]] tl::expected<LoadedTrees, LoadFailure> load_trees(
+    const std::string& path, const std::optional<std::string>& text, const LoadOptions& options,
+    Diagnostics& diagnostics, std::shared_ptr<PluginSet> plugins);
 
 // All that a run needs; the documents and the definition are gone.
 struct Runnable {

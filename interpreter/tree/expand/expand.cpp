@@ -40,7 +40,7 @@ class Expander {
     definition_.values = std::move(trees_.values);
     definition_.written = std::move(trees_.written);
     definition_.texts = std::move(trees_.texts);
-    shared_.assign(trees_.ports.size(), Port::kNone);
+    trees_.shared.resize(trees_.ports.size(), Port::kNone);
     members_.resize(trees_.groups.size());
     for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
@@ -57,6 +57,7 @@ class Expander {
       declare_entries(definition_, literals_, report_, guessed_, later_texts());
     for (const Hint& hint : hints_) compare(hint);
     check_set_keys(scope);
+    for (const std::uint32_t it : shared_) trees_.shared[it] = Port::kNone;  // for the next tree
     return std::move(definition_);
   }
 
@@ -282,7 +283,7 @@ class Expander {
 
   // Where nothing comes from an entry, all expansions of a tree share their ports.
   std::uint32_t bind_ports(const CheckedNode& checked, Scope& scope) {
-    if (shared_[checked.first] != Port::kNone) return shared_[checked.first];
+    if (trees_.shared[checked.first] != Port::kNone) return trees_.shared[checked.first];
     const auto first = static_cast<std::uint32_t>(definition_.ports.size());
     const auto& parameters = checked.type->parameters;
     definition_.ports.resize(first + parameters.size());
@@ -299,7 +300,10 @@ class Expander {
       }
       ++bound, ++port;
     }
-    if (constant) shared_[checked.first] = first;
+    if (constant) {
+      trees_.shared[checked.first] = first;
+      shared_.push_back(checked.first);
+    }
     return first;
   }
 
@@ -584,7 +588,7 @@ class Expander {
   std::set<std::pair<std::string_view, std::string_view>> told_hints_;  // node, port
   std::uint32_t inside_ = 0;           // the SubTree whose tree is being added
   std::uint32_t board_ = 0;            // of the tree that is being added, when boards are kept
-  std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
+  std::vector<std::uint32_t> shared_;  // those of CheckedTrees::shared that are set
 };
 
 }  // namespace
@@ -592,6 +596,12 @@ class Expander {
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
                   const Reporter& report, Expansion expansion, const StartValues& later) {
   return Expander(trees, values, report, expansion, later).expand(main);
+}
+
+void take_back(CheckedTrees& trees, Definition definition) {
+  trees.values = std::move(definition.values);
+  trees.written = std::move(definition.written);
+  trees.texts = std::move(definition.texts);
 }
 
 }  // namespace lockstep::host

@@ -22,5 +22,7 @@ enum class Expansion : bool { OfMain, OfPart };
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
                   const Reporter& report, Expansion expansion = Expansion::OfMain,
                   const StartValues& later = {});
+// What expand() moved out of `trees`, for the next one.
+void take_back(CheckedTrees& trees, Definition definition);
 
 }  // namespace lockstep::host

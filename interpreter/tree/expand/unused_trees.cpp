@@ -32,10 +32,7 @@ void check_unused(CheckedTrees& trees, std::string_view main, const Reporter& re
   }
   for (const std::string_view id : trees.ids) {
     if (used.contains(id) || inside.contains(id)) continue;
-    Definition checked = expand(trees, id, {}, report, Expansion::OfPart);
-    trees.values = std::move(checked.values);  // for the next one
-    trees.written = std::move(checked.written);
-    trees.texts = std::move(checked.texts);
+    take_back(trees, expand(trees, id, {}, report, Expansion::OfPart));
   }
 }
 

@@ -80,14 +80,19 @@ class Side {
     return loaded;
   }
 
-  // Those in the file itself.
+  // All trees, after load(). The exit code; with a message unless it is kExitSuccess.
+  int load_trees(LoadCommandOptions options, const std::shared_ptr<PluginSet>& plugins) {
+    options.text = text_;
+    auto loaded = load_trees_given(file(), options, diagnostics_, plugins);
+    if (!loaded) return tell(loaded.error());
+    trees_ = std::move(*loaded);
+    return kExitSuccess;
+  }
+
+  // After load_trees(), those in the file itself.
   std::set<std::string> tree_ids() const {
     std::set<std::string> ids;
-    Diagnostics reported_later;
-    const auto project = text_ ? load_project_text(file(), *text_, Arguments(), reported_later)
-                               : load_project(file(), Arguments(), reported_later);
-    if (project == nullptr) return ids;
-    const Document& document = *project->documents.front();
+    const Document& document = *trees_.project->documents.front();
     const auto elements = document.elements();
     for (const std::uint32_t tree : children_in(elements, 0)) {
       const Attribute* id = document.find_attribute(tree, "ID");
@@ -101,8 +106,19 @@ class Side {
     return files_ ? files_->name() : given_.path;
   }
 
-  TreeSide side(const Loaded& loaded) const {
-    return {name(), &loaded.definition, [this, project = loaded.project.get()](Place place) {
+  // After load_trees(): calls use(side) for one of them. An exit code, as above.
+  template <class Use>
+  int with_tree(const std::string& id, Use use) {
+    const bool is_correct = trees_.trees->use(
+        id, [&](const Definition& definition) { use(side(definition, *trees_.project)); });
+    return is_correct ? kExitSuccess : tell(LoadFailure::Invalid);
+  }
+
+  TreeSide side(const Loaded& loaded) const { return side(loaded.definition, *loaded.project); }
+
+ private:
+  TreeSide side(const Definition& definition, const Project& of) const {
+    return {name(), &definition, [this, project = &of](Place place) {
               SourceLocation location = project->sources.locate(place);
               if (files_) location.file = files_->as_named(std::move(location.file));
               if (!given_.shown.empty() && location.file == given_.path) {
@@ -112,12 +128,19 @@ class Side {
             }};
   }
 
- private:
+  int tell(LoadFailure failure) const {
+    Diagnostics shown = files_ ? files_->as_named(diagnostics_) : diagnostics_;
+    print_diagnostics(shown, Severity::Error);
+    return exit_code_of(failure);
+  }
+
   std::string file() const { return files_ ? files_->file() : given_.path; }
 
   Given given_;
   std::optional<GitFiles> files_;
   std::optional<std::string> text_;
+  Diagnostics diagnostics_;
+  LoadedTrees trees_;
 };
 
 std::string text_of(const TreeDiff& diff, const std::string& format) {
@@ -151,6 +174,10 @@ int compare(const DiffCommandOptions& options, Side& a, Side& b) {
     const int written = write_results(text_of(diff, options.format));
     return first_failure(written, diff.same() ? kExitSuccess : kExitFailure);
   }
+  load.is_part = true;
+  for (Side* it : {&b, &a}) {
+    if (const int code = it->load_trees(load, plugins); code != kExitSuccess) return code;
+  }
   const auto of_a = a.tree_ids(), of_b = b.tree_ids();
   if (options.format != "text" && options.format != "json" && options.format != "tree") {
     print_error("the file has no main tree",
@@ -158,7 +185,6 @@ int compare(const DiffCommandOptions& options, Side& a, Side& b) {
                             joined(std::vector<std::string>(of_b.begin(), of_b.end()), ", ")));
     return kExitUsage;
   }
-  load.is_part = true;
   std::set<std::string> all = of_a;
   all.insert(of_b.begin(), of_b.end());
   std::string text;
@@ -171,15 +197,15 @@ int compare(const DiffCommandOptions& options, Side& a, Side& b) {
                              is_new ? b.name() : a.name(), options.format == "json");
       continue;
     }
-    load.main_tree = id;
-    const auto new_tree = b.load(load, plugins);
-    const auto old_tree = a.load(load, plugins);
-    if (!new_tree || !old_tree) {
-      return exit_code_of(new_tree ? old_tree.error() : new_tree.error());
-    }
-    const TreeDiff diff(a.side(*old_tree), b.side(*new_tree));
-    is_same &= diff.same();
-    text += text_of(diff, options.format);
+    int code_of_old = kExitSuccess;
+    const int code = b.with_tree(id, [&](const TreeSide& new_side) {
+      code_of_old = a.with_tree(id, [&](const TreeSide& old_side) {
+        const TreeDiff diff(old_side, new_side);
+        is_same &= diff.same();
+        text += text_of(diff, options.format);
+      });
+    });
+    if (const int failed = first_failure(code, code_of_old); failed != kExitSuccess) return failed;
   }
   return first_failure(write_results(text), is_same ? kExitSuccess : kExitFailure);
 }
