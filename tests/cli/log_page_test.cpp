@@ -151,6 +151,21 @@ TEST_CASE("log page writes nothing where there is nothing to show") {
   }
 }
 
+TEST_CASE("log page names the output that cannot be written, and does not blame the recording") {
+  const TemporaryDirectory directory;
+  const std::string recording = directory.path("run.jsonl");
+  const std::string tree = directory.file("tree.xml", tree_text("<Wait seconds=\"1\"/>"));
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", recording})
+              .code == 0);
+  for (const std::vector<std::string>& range : {std::vector<std::string>{}, {"--from", "5"}}) {
+    std::vector<std::string> words{"log", "page", recording, "--out", "/dev/full"};
+    words.insert(words.end(), range.begin(), range.end());
+    const Outcome outcome = run_lockstep(words);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err == "lockstep: error: cannot write '/dev/full': No space left on device\n");
+  }
+}
+
 TEST_CASE("log page keeps no more of a recording in memory than log info does") {
   const TemporaryDirectory directory;
   const std::string recording = record_ticks(directory, "400000");

@@ -54,15 +54,6 @@ class CopiedInput final : public TextOfFiles {
   std::array<char, 1u << 16u> part_;
 };
 
-// Reads the recording to its end. What is wrong with it is found here, before a browser does.
-int read_to_end(std::istream& in, const std::string& path) {
-  return read_recording(in, path, [](RecordingReader& reader) {
-    while (reader.next()) {
-    }
-    return report_end(reader);
-  });
-}
-
 // Bytes of a text.
 struct Piece {
   std::uint64_t from = 0, to = 0;
@@ -123,8 +114,13 @@ int make_whole_page(std::istream& in, const std::string& path,
     return writes;
   });
   std::istream recording(&input);
-  const int code = read_to_end(recording, path);
-  if (writes && code == kExitSuccess) page.finish();
+  // To its end: what is wrong with it is found here, before a browser does.
+  RecordingReader reader(recording, path == "-" ? "stdin" : path);
+  while (reader.next()) {
+  }
+  if (!writes) return kExitSuccess;  // that its end is not read is no fault of the recording
+  const int code = report_end(reader);
+  if (code == kExitSuccess) page.finish();
   return code;
 }
 
