@@ -109,7 +109,7 @@ class WordMaker {
     return entry.value == initial_[entry.entry] || is_ticked();
   }
 
-  enum class Lacks { Moments, Faults, Value };
+  enum class Lacks { Moments, Faults, Value, Decision };
 
   // Each once.
   template <class... Args>
@@ -171,7 +171,15 @@ class WordMaker {
   // `progress`: after it; the next tick may tell better.
   void add_word(const RecordedTick& tick, const Leaf& it, Status status, bool begins,
                 double progress) {
-    if (may_be_of_script(tree_, it.leaf->node, status, begins)) return;
+    if (may_be_of_script(tree_, it.leaf->node, status, begins)) {
+      const char step = status == Status::Skipped ? 'K' : status == Status::Failure ? 'F' : 'S';
+      note(
+          Lacks::Decision,
+          "the {} of '{}' in tick {} may be that of its script or of the leaf itself: the scenario "
+          "has it as that of the script. If it is that of the leaf, add the step {}",
+          to_string(status), header_.nodes[it.node].path, tick.tick, step);
+      return;
+    }
     LeafWord word{.status = status};
     if (status == Status::Running) word.progress = progress;
     for (const RecordedFault& fault : tick.faults) {

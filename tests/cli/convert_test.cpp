@@ -532,6 +532,30 @@ TEST_CASE("convert warns of a child that may be skipped, where the languages dif
   CHECK(contains(delay(skipped), "the time is not waited for again"));
 }
 
+TEST_CASE("convert tells once that a leaf of a plugin may skip a condition") {
+  const TemporaryDirectory directory;
+  const auto told = [&](const std::string& condition) {
+    const std::string branch = "<IfThenElse>" + condition + "<AlwaysSuccess/></IfThenElse>";
+    std::string tree = around("lockstep=\"1\" main_tree_to_execute=\"Main\"",
+                              "<Sequence>" + branch + branch + "</Sequence>");
+    tree.insert(tree.find("</root>"),
+                "<BehaviorTree ID=\"S\"><Inverter><IsOpen/></Inverter></BehaviorTree>");
+    return run_lockstep({"convert", directory.file("tree.xml", tree)}).err;
+  };
+  const std::string is_told = "note: 'IfThenElse' is not quite the same";
+  for (const std::string condition :
+       {"<IsOpen/>", "<Condition ID=\"IsOpen\"/>", "<Inverter><IsOpen/></Inverter>",
+        "<SubTree ID=\"S\"/>", "<Sequence><IsOpen/><IsOpen/></Sequence>"}) {
+    const std::string text = told(condition);
+    INFO(condition << ": " << text);
+    CHECK(contains(text, is_told));
+    CHECK(text.find(is_told) == text.rfind(is_told));
+    CHECK(contains(text, "returning Skipped"));
+  }
+  CHECK(told("<Check code=\"k\"/>").empty());
+  CHECK(told("<Sequence><IsOpen/><AlwaysSuccess/></Sequence>").empty());
+}
+
 TEST_CASE("convert: the time is in proportion to the size of the file") {
   const TemporaryDirectory directory;
   const auto seconds = [&](const std::string& text) {

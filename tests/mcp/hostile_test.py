@@ -114,6 +114,26 @@ class HostileTest(unittest.TestCase):
             self.server.raw(frames)
             self.assert_alive()
 
+    def test_a_text_in_place_of_a_file_is_told_what_to_give(self):
+        self.server.begin()
+        tree = '<root lockstep="1"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>'
+
+        def refusal(name, **arguments):
+            result = self.server.call(name, **arguments)["result"]
+            self.assertTrue(result["isError"], result)
+            return result["content"][0]["text"]
+
+        for name in ("check", "show", "verify", "simulate", "scenario_from"):
+            self.assertIn("give it as 'text'", refusal(name, tree=tree), name)
+        self.assertIn("give it as 'tree'", refusal("check", text="t.xml"))
+        self.assertIn("give it as 'leaves_text'", refusal("simulate", text=tree, leaves="<leaves lockstep='1'/>"))
+        self.assertIn("give it as 'before_text'", refusal("diff", before=tree, after_text=tree))
+        self.assertIn("a file of the workspace", refusal("measure", recording='{"lockstep_recording":1}'))
+        # The recording of a text does not have it.
+        self.assertFalse(self.server.call("simulate", text=tree)["result"]["isError"])
+        self.assertIn("a file that has the tree", refusal("scenario_from"))
+        self.assertFalse(self.server.call("scenario_from", text=tree)["result"]["isError"])
+
     def test_a_large_text_is_answered(self):
         self.server.begin()
         text = '<root lockstep="1"><BehaviorTree ID="Main"><Sequence>' + "<Wait seconds='x'/>" * 1_000_000

@@ -146,6 +146,17 @@ type="int"/></Action></TreeNodesModel></root>)");
     CHECK(contains(it.out, after));
     CHECK(!contains(it.out, "seen="));
   }
+  // A script of the leaf, or the leaf itself.
+  const Outcome decided = made(R"(<ForceSuccess><AlwaysFailure name="a"/></ForceSuccess>)", {});
+  CHECK(decided.err.empty());
+  const Outcome unknown = made(
+      R"(<Fallback><Action ID="Look" name="look" seen="{seen}" failure_if="true"/><Script code="n := seen"/></Fallback>)",
+      {"--set", "seen=1"});
+  INFO(unknown.out << unknown.err);
+  const std::string may_be = "the failure of 'T/Fallback/look' in tick 0 may be that of its script";
+  CHECK(contains(unknown.err, may_be));
+  CHECK(contains(unknown.err, "add the step F"));
+  CHECK(contains(unknown.out, may_be));
   // The script puts back the value that the entry had.
   const Outcome taken = made(R"(<Sequence memory="true"><Script code="seen := 0"/>
 <Wait seconds="1"/><Action ID="Look" name="look" seen="{seen}"/><Check code="seen == 3"/>

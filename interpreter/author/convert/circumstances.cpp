@@ -51,6 +51,8 @@ bool Circumstances::apply(btcpp::When when, std::uint32_t element) {
       return has_child && may_run(first);
     case btcpp::When::FirstIsSkipped:
       return has_child && skips(first) == Skips::Script;
+    case btcpp::When::LeafSkipsFirst:
+      return has_child && skips(first) == Skips::Leaf;
     case btcpp::When::FirstIsDecided:
       return has_child && is_decided_by_script(first);
   }
@@ -128,7 +130,10 @@ Circumstances::Skips Circumstances::find_skips(std::uint32_t element) {
   }
   const std::string_view type = type_of(element);
   if (type == "KeepRunningUntilFailure" || type.starts_with("SubTree")) return Skips::Nothing;
-  if (element + 1 == elements_[element].end) return Skips::Nothing;
+  if (element + 1 == elements_[element].end) {
+    const bool is_known = conversion_.from_nodes.find(type) != nullptr;
+    return is_known ? Skips::Nothing : Skips::Leaf;
+  }
   const bool is_branch =
       type == "IfThenElse" || type == "WhileDoElse" || type.starts_with("Switch");
   Skips any = Skips::Nothing, all = Skips::Script;

@@ -28,8 +28,8 @@ class Circumstances {
   void find_held();
   bool may_run(std::uint32_t element) const;
   bool is_modeled_action(std::string_view type) const;
-  // What may skip an element: nothing, a script.
-  enum class Skips : std::uint8_t { Unknown, Nothing, Script };
+  // What may skip an element: nothing, a leaf of a plugin that returns Skipped, a script.
+  enum class Skips : std::uint8_t { Unknown, Nothing, Leaf, Script };
   Skips skips(std::uint32_t element);
   Skips find_skips(std::uint32_t element);
   bool is_decided_by_script(std::uint32_t element) const;

@@ -336,11 +336,15 @@ class Converter {
       }
     }
     for (const btcpp::Difference& it : pair_->differences) {
-      if (!circumstances_.apply(it.when, element) || report_.counted_only(Severity::Warning))
-        continue;
+      if (!circumstances_.apply(it.when, element)) continue;
+      // Few leaves do, so one line is enough.
+      const bool is_rare = it.when == btcpp::When::LeafSkipsFirst;
+      if (is_rare && std::exchange(told_of_skips_, true)) continue;
+      const Severity severity = is_rare ? Severity::Note : Severity::Warning;
+      if (report_.counted_only(severity)) continue;
       report_.at("not-the-same"_code, place_of(element),
                  fmt::format("'{}' is not quite the same", brief(type)), std::string(it.what),
-                 Severity::Warning);
+                 severity);
     }
   }
 
@@ -713,6 +717,7 @@ class Converter {
   bool is_check_ = false;           // likewise
   std::string new_id_;              // of the innermost element, if it is explicit
   bool has_doctype_ = false;
+  bool told_of_skips_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments
 };

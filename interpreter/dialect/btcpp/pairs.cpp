@@ -47,7 +47,11 @@ constexpr Difference kSkipped = {
     "for BehaviorTree.CPP, a condition that is skipped is an error; in lockstep's language the "
     "node is skipped then",
     When::FirstIsSkipped};
-constexpr Difference kBranches[] = {kSkipped};
+constexpr Difference kLeafSkips = {
+    "for BehaviorTree.CPP, it is an error that a leaf skips the condition by returning Skipped; in "
+    "lockstep's language the node is skipped then",
+    When::LeafSkipsFirst};
+constexpr Difference kBranches[] = {kSkipped, kLeafSkips};
 constexpr Difference kAsks[] = {
     {"for BehaviorTree.CPP, an action that is the condition keeps its result, and a condition that "
      "runs does not halt the branch; in lockstep's language the action begins again in the next "
@@ -56,7 +60,8 @@ constexpr Difference kAsks[] = {
     {"for BehaviorTree.CPP, a script that decides the condition runs once for each branch; in "
      "lockstep's language it runs in every tick",
      When::FirstIsDecided},
-    kSkipped};
+    kSkipped,
+    kLeafSkips};
 constexpr Difference kWaits[] = {
     {"for BehaviorTree.CPP, the time is not waited for again after the child was skipped; in "
      "lockstep's language it is",

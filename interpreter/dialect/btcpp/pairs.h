@@ -41,7 +41,8 @@ enum class When : unsigned char {
   Always,
   IsHeld,          // it is below a synchronized node
   ConditionRuns,   // its first child, for several ticks
-  FirstIsSkipped,  // its first child
+  FirstIsSkipped,  // its first child, by a script
+  LeafSkipsFirst,  // its first child, if a leaf of a plugin returns Skipped
   FirstIsDecided,  // its first child has a success_if or failure_if
 };
 

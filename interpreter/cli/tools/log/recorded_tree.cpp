@@ -32,6 +32,12 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
     code_ = kExitUsage;
     return;
   }
+  if (file.empty() && file_ == "-") {
+    print_error("the recording is of a tree that was read from a text, not from a file",
+                "give a file that has the tree, or in mcp its text");
+    code_ = kExitInvalidTree;
+    return;
+  }
   LoadCommandOptions load;
   load.plugins = plugins;
   load.unknown = MissingNodes::AreMocked;

@@ -288,8 +288,31 @@ class CommandBuilder {
     return text == nullptr ? wrong(input, "a string") : add_text(input, *text);
   }
 
+  // A text in place of a file, or a file in place of a text.
+  Result<void> check_meaning(const ToolInput& input, const std::string& text) const {
+    const bool is_file = is_of_file(input.kind), is_text = is_of_text(input.kind);
+    const bool has_content = text.find_first_of("<\n") != text.npos || text.starts_with('{');
+    const bool has_name = !has_content && text.ends_with(".xml");
+    if (!(is_file && has_content) && !(is_text && has_name)) return {};
+    const auto other = std::ranges::find_if(tool_.inputs, [&](const ToolInput& it) {
+      return input.kind != Kind::Recording && it.kind != Kind::Recording && it.slot == input.slot &&
+             it.option == input.option && (is_file ? is_of_text(it.kind) : is_of_file(it.kind));
+    });
+    return problem(fmt::format("'{}' of '{}' is {}, and got {}", input.name, tool_.name,
+                               is_file ? "the name of a file" : "the content of a file",
+                               is_file ? "a text" : fmt::format("the name '{}'", brief(text))),
+                   other != tool_.inputs.end() ? fmt::format("give it as '{}'", other->name)
+                                               : "write it to a file of the workspace");
+  }
+  static bool is_of_file(Kind kind) {
+    return kind == Kind::File || kind == Kind::Files || kind == Kind::FileText ||
+           kind == Kind::Recording;
+  }
+  static bool is_of_text(Kind kind) { return kind == Kind::Text || kind == Kind::Content; }
+
   Result<void> add_text(const ToolInput& input, const std::string& text) {
     if (text.find('\0') != text.npos) return wrong(input, "a string without the character 0");
+    if (auto done = check_meaning(input, text); !done) return done;
     switch (input.kind) {
       case Kind::Text:
         command_.input = text;
