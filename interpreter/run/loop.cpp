@@ -85,10 +85,7 @@ class Loop {
 
   bool may_tick() {
     rethrow_thread_failure();
-    if (stop_requested()) {
-      end_.signal = options_.stop_signal();
-      return stop(StopReason::Signal);
-    }
+    if (stop_requested()) return stop(StopReason::Signal);
     if (options_.writing_failed && options_.writing_failed()) {
       return stop(StopReason::Recording);
     }
@@ -156,7 +153,11 @@ class Loop {
     return true;
   }
 
-  bool stop_requested() const { return options_.stop_signal && options_.stop_signal() != 0; }
+  // It is not called again after its first nonzero answer: one that takes an event gives it once.
+  bool stop_requested() {
+    if (end_.signal == 0 && options_.stop_signal) end_.signal = options_.stop_signal();
+    return end_.signal != 0;
+  }
 
   bool stop(StopReason reason) {
     end_.reason = reason;

@@ -663,11 +663,19 @@ TEST_CASE("a loop ends at its limits, and halts what runs") {
   runtime::LoopSettings settings;
   settings.virtual_clock = true;
   settings.stop = [&] { return ++asked > 5; };
+  auto result = run.loop(settings);
+  CHECK(result.reason == Reason::Stopped);
+  CHECK(result.ticks == 5);
+  run.restart(0);
+  settings = {};
+  asked = 0;
+  settings.stop = [&] { return ++asked == 2; };  // in the wait
+  settings.max_ticks = 9;
   CHECK(run.loop(settings).reason == Reason::Stopped);
   run.restart(0);
   settings = {};
   settings.max_ticks = 3;
-  const auto result = run.loop(settings);  // on the wall clock
+  result = run.loop(settings);  // on the wall clock
   CHECK(result.ticks == 3);
   CHECK(result.seconds >= 0.02);
 }

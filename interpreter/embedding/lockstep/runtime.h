@@ -487,7 +487,9 @@ typedef struct lockstep_loop_options {
   uint64_t max_ticks;   /* 0: any number */
   double timeout;       /* seconds; 0: none */
   bool virtual_clock;   /* time jumps to the next tick: as fast as possible, the same every time */
-  bool (*stop)(void* user); /* called before each tick; true: stop. May be NULL */
+  /* Called before each tick, and on the wall clock also while the loop waits for the next one. True:
+   * stop; it is not called again then. May be NULL */
+  bool (*stop)(void* user);
   void* user;
 } lockstep_loop_options;
 

@@ -304,7 +304,9 @@ struct LoopSettings {
   std::uint64_t max_ticks = 0;  // 0: any number; on the virtual clock a million
   double timeout = 0;           // seconds; 0: none
   Overrun overrun = Overrun::Skip;
-  std::function<bool()> stop = {};  // called before each tick; true: stop
+  // Called before each tick, and on the wall clock also while the loop waits for the next one. True:
+  // stop; it is not called again then.
+  std::function<bool()> stop = {};
 };
 
 struct LoopResult {

@@ -235,6 +235,20 @@ TEST_CASE("catch-up: a stop signal and a limit of ticks end a burst") {
   stop = 0;
 }
 
+TEST_CASE("a stop that is asked for once is kept, in whichever call") {
+  for (int at = 1; at <= 8; ++at) {
+    Fixture fixture;
+    int calls = 0;
+    LoopOptions options = options_at(100, 20, OverrunPolicy::Skip);
+    options.stop_signal = [&] { return ++calls == at ? 15 : 0; };
+    const RunEnd end = fixture.run(options);
+    INFO(at);
+    CHECK(end.reason == StopReason::Signal);
+    CHECK(end.signal == 15);
+    CHECK(calls == at);
+  }
+}
+
 TEST_CASE("fail: the run ends in order after its first late tick") {
   Fixture fixture(3);
   std::uint64_t ticks = 0;
