@@ -21,6 +21,10 @@ bool refuse(const Problem& wrong) {
                                  : fmt::format("{}: {}", wrong.message, wrong.hint));
 }
 
+std::string fault_text(const lockstep_run& run, const Fault& fault) {
+  return fmt::format("{}: {}", run.program->texts().paths[fault.node], fault.message);
+}
+
 namespace {
 
 bool has_processes(const lockstep_project& project) {
@@ -32,10 +36,6 @@ bool may_be_watched(lockstep_run& run) {
   if (run.is_busy) return fail("the run is in use: it is watched from its first tick on");
   return run.is_new() ||
          fail("the run has been ticked already: it is watched from its first tick on");
-}
-
-std::string fault_text(const lockstep_run& run, const Fault& fault) {
-  return fmt::format("{}: {}", run.program->texts().paths[fault.node], fault.message);
 }
 
 std::optional<Nanoseconds> time_from(double seconds) {

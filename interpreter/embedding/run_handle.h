@@ -141,6 +141,9 @@ class Busy {
 // A reason, and what to do. Returns false.
 bool refuse(const Problem& wrong);
 
+// "Main/arm: threw an exception: …"
+std::string fault_text(const lockstep_run& run, const Fault& fault);
+
 // While its entries are used.
 inline EntriesLock* lock_of(lockstep_run* run) {
   return run == nullptr ? nullptr : run->run.blackboard().lock.get();

@@ -97,6 +97,8 @@ bool lockstep_run_keep(lockstep_run* run, const char* file, const lockstep_keep_
     if (run->kept != nullptr) return fail("the run is kept already");
     if (!run->is_new())
       return fail("the run has been ticked already: it is kept from its first tick on");
+    // A leaf could not be created in its restart: there is nothing to keep.
+    if (const Fault* const fault = run->run.fault()) return fail(fault_text(*run, *fault));
     if (run->watchers.log_somewhere()) return fail("the run is watched already: keep it first");
     const lockstep_keep_options read = read_struct(given);
     const auto options = keep_options(file, read);

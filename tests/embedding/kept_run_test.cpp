@@ -42,11 +42,22 @@ class Breaks : public lockstep::Action<>, public lockstep::Kept<int> {
   }
 };
 
+// The second one cannot be made.
+class Unique : public lockstep::Action<> {
+ public:
+  Unique() {
+    if (made++ > 0) throw std::runtime_error("the driver is gone");
+  }
+  Status tick() override { return Status::Running; }
+  static inline int made = 0;
+};
+
 class KeptRuns {
  public:
   explicit KeptRuns(const std::string& nodes) {
     fs::create_directory(folder_);
     project_.add_leaf<Count>("Count", "Counts its ticks").add_leaf<Breaks>("Breaks", "Does");
+    project_.add_leaf<Unique>("Unique", "Is made once");
     project_.load_text("<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + nodes +
                        "</BehaviorTree></root>");
   }
@@ -165,6 +176,21 @@ TEST_CASE("a leaf that breaks when it is restored ends the run, which may recove
           std::string::npos);
   }
   CHECK_FALSE(runs.run().keep(cut));
+}
+
+TEST_CASE("a run whose leaves could not be made again is not kept before it is restarted") {
+  const KeptRuns runs("<Unique/>");
+  Unique::made = 0;
+  runtime::Run run = runs.run();
+  const std::string error = error_of([&] { run.restart(1); });
+  CHECK(error.find("the driver is gone") != std::string::npos);
+  CHECK_FALSE(lockstep_run_keep(run.get(), runs.file().c_str(), nullptr, nullptr));
+  CHECK(lockstep_last_error() == error);
+  CHECK_FALSE(fs::exists(runs.file()));
+  Unique::made = 0;
+  run.restart(1);
+  CHECK_FALSE(run.keep(runs.file()));
+  CHECK(run.tick(0) == Status::Running);
 }
 
 TEST_CASE("a program keeps a run from its first tick on, once, and before it is watched") {

@@ -383,7 +383,8 @@ typedef struct lockstep_resumed_leaf {
  * A resumed run is as it was after its last tick in the file; its leaves are called in this
  * function, and may have a fault. `options` and `result` may be NULL. False, and the run is as
  * new: the file is of another run (another tree, argument, plugin, period, version), damaged, in
- * use, or was resumed too often; or the tree has an entry for objects. */
+ * use, or was resumed too often; or the tree has an entry for objects. Also false: a leaf could not
+ * be created in lockstep_run_restart. */
 LOCKSTEP_EXPORT bool lockstep_run_keep(lockstep_run* run, const char* file,
                                        const lockstep_keep_options* options,
                                        lockstep_resumed* result);
