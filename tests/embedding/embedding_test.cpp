@@ -680,6 +680,24 @@ TEST_CASE("a loop ends at its limits, and halts what runs") {
   CHECK(result.seconds >= 0.02);
 }
 
+TEST_CASE("a run in the place of another ends that one, and then frees what it calls back") {
+  struct Gone {
+    ~Gone() { calls.push_back("its log is gone"); }
+  };
+  const runtime::Project project = project_of("<Step/>");
+  runtime::RunSettings settings;
+  settings.log = [gone = std::make_shared<Gone>()](const std::string&, lockstep::LogLevel,
+                                                   const std::string&) {};
+  runtime::Run run(project, std::exchange(settings, {}));
+  CHECK(run.tick(0) == Status::Running);
+  run = runtime::Run(project);
+  CHECK(calls == Strings{"halt", "its log is gone"});
+  CHECK(run.tick(0) == Status::Running);
+  runtime::Run& itself = run;
+  run = std::move(itself);
+  CHECK(run.tick(0.01) == Status::Running);
+}
+
 TEST_CASE("leaves of a run share its context, and log") {
   runtime::Project project;
   project.add_leaf<Counts>("Counts", "Counts its ticks");

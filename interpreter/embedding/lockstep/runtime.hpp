@@ -103,6 +103,14 @@ Struct sized() {
 class Project {
  public:
   Project() : it_(lockstep_project_new()) { detail::require(it_ != nullptr); }
+  Project(Project&&) noexcept = default;
+  Project& operator=(Project&& other) noexcept {
+    it_ = std::move(other.it_);  // before the tables that it uses
+    leaves_ = std::move(other.leaves_);
+    load_tried_ = other.load_tried_;
+    return *this;
+  }
+
 
   Project& add_plugin_path(const std::string& directory) {
     return check(lockstep_project_add_plugin_path(it_.get(), directory.c_str()));
@@ -375,6 +383,14 @@ class Run {
     it_.reset(lockstep_run_new(project.get(), &options));
     detail::require(it_ != nullptr);
     detail::require(lockstep_run_observe(it_.get(), &Hooks::on_tick, hooks_.get()));
+  }
+  Run(Run&&) noexcept = default;
+  // The run that was here ends, as in the destructor: before what it calls back.
+  Run& operator=(Run&& other) noexcept {
+    it_ = std::move(other.it_);
+    hooks_ = std::move(other.hooks_);
+    leaves_ = std::move(other.leaves_);
+    return *this;
   }
 
   // One tick, `seconds` after the run began. Throws an Error after a fault of a leaf, with the path
