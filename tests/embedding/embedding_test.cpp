@@ -698,6 +698,40 @@ TEST_CASE("a run in the place of another ends that one, and then frees what it c
   CHECK(run.tick(0.01) == Status::Running);
 }
 
+TEST_CASE("what on_tick or stop throws ends a loop in order") {
+  const runtime::Project project = project_of("<Step step=\"0.001\"/>");
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("lockstep_thrown_" + std::to_string(getpid()) + ".jsonl");
+  runtime::Run run(project);
+  run.record(file);
+  std::uint64_t last = 0;
+  runtime::LoopSettings settings;
+  settings.virtual_clock = true;
+  SECTION("on_tick") {
+    run.on_tick([](std::uint64_t tick, double, Status) {
+      if (tick == 2) throw runtime::Error("enough");
+    });
+  }
+  SECTION("stop") {
+    settings.stop = [&]() -> bool {
+      if (last == 2) throw runtime::Error("enough");
+      return false;
+    };
+  }
+  run.on_tick([&](std::uint64_t tick, double, Status) { last = tick; });
+  settings.max_ticks = 100;
+  CHECK(error_of([&] { run.loop(settings); }) == "enough");
+  CHECK(last <= 2);
+  CHECK(calls == Strings{"halt"});
+  CHECK_FALSE(run.node(0).status);
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  CHECK(text.find("\"end\"") != std::string::npos);
+  std::filesystem::remove(file);
+  run.restart(0);
+  CHECK(run.tick(0) == Status::Running);
+}
+
 TEST_CASE("leaves of a run share its context, and log") {
   runtime::Project project;
   project.add_leaf<Counts>("Counts", "Counts its ticks");

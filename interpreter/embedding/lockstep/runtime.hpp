@@ -483,15 +483,16 @@ class Run {
   void recover() { detail::require(lockstep_run_recover(it_.get())); }
   // Begins again, as a new run with this seed would.
   void restart(std::uint64_t seed) { detail::require(lockstep_run_restart(it_.get(), seed)); }
-  // Ticks at the run's period until the tree completes or must stop.
+  // Ticks at the run's period until the tree completes or must stop. What on_tick or `stop` throws
+  // ends it, in order, and is thrown then.
   LoopResult loop(const LoopSettings& settings = {}) {
     auto options = detail::sized<lockstep_loop_options>();
     options.virtual_clock = settings.virtual_clock;
     options.max_ticks = settings.max_ticks;
     options.timeout = settings.timeout;
     options.overrun = static_cast<std::int32_t>(settings.overrun);
-    if (settings.stop) options.stop = [](void* stop) { return (*static_cast<Stop*>(stop))(); };
-    Stop stop = settings.stop;
+    Stop stop{*hooks_, settings.stop};
+    options.stop = &Stop::is_asked;
     options.user = &stop;
     auto result = detail::sized<lockstep_loop_result>();
     detail::require(lockstep_run_loop(it_.get(), &options, &result));
@@ -592,8 +593,6 @@ class Run {
   }
 
  private:
-  using Stop = std::function<bool()>;
-
   template <class T>
   static constexpr const lockstep_object_type* object_type() {
     return &lockstep::detail::kObjectTable<std::remove_const_t<T>>;
@@ -629,7 +628,7 @@ class Run {
   }
 
   // The functions that the C interface calls back. No exception may pass through it: it is kept and
-  // thrown after the tick.
+  // thrown after the tick, or the loop, which it ends.
   struct Hooks {
     decltype(RunSettings::log) log;
     decltype(RunSettings::hang) hang;
@@ -659,6 +658,21 @@ class Run {
         }
       } catch (...) {
         hooks.thrown = std::current_exception();
+      }
+    }
+  };
+  // Of a loop.
+  struct Stop {
+    Hooks& hooks;
+    const std::function<bool()>& stop;
+
+    static bool is_asked(void* self) {
+      const Stop& it = *static_cast<Stop*>(self);
+      try {
+        return it.hooks.thrown != nullptr || (it.stop && it.stop());
+      } catch (...) {
+        it.hooks.thrown = std::current_exception();
+        return true;
       }
     }
   };
