@@ -648,6 +648,29 @@ TEST_CASE("observers see each tick, and what they throw comes out of it") {
   CHECK(error_of([&] { run.tick(0); }) == "enough");
 }
 
+TEST_CASE("an observer may add others, which see the next tick") {
+  const runtime::Project project = project_of("<Step step=\"0.001\"/>");
+  runtime::Run run(project);
+  struct Seen {
+    std::vector<std::uint64_t> ticks;
+    int added = 0;
+  } seen;
+  const auto adds = [&run, &seen] {
+    for (int i = 0; i < 20; ++i) {
+      run.on_tick([&seen](std::uint64_t, double, Status) { ++seen.added; });
+    }
+  };
+  run.on_tick([&seen, &adds](std::uint64_t tick, double, Status) {  // it is in std::function itself
+    if (tick == 0) adds();
+    seen.ticks.push_back(tick);
+  });
+  run.tick(0);
+  CHECK(seen.added == 0);
+  run.tick(1);
+  CHECK(seen.added == 20);
+  CHECK(seen.ticks == std::vector<std::uint64_t>{0, 1});
+}
+
 TEST_CASE("a loop ends at its limits, and halts what runs") {
   const runtime::Project project = project_of("<Step step=\"0.001\"/>");
   runtime::Run run(project);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <lockstep/leaf.hpp>
@@ -583,7 +584,8 @@ class Run {
   }
 
   // Called after each tick, also of the loop, with the tick's number from 0, its time and the
-  // status of the root. It may read the run, and must not tick or halt it.
+  // status of the root. It may read the run, and must not tick or halt it. Called in such a
+  // function, it takes effect with the next tick.
   void on_tick(std::function<void(std::uint64_t tick, double seconds, Status status)> observe) {
     hooks_->observers.push_back(std::move(observe));
   }
@@ -633,7 +635,7 @@ class Run {
     decltype(RunSettings::log) log;
     decltype(RunSettings::hang) hang;
     decltype(RunSettings::wake) wake;
-    std::vector<std::function<void(std::uint64_t, double, Status)>> observers;
+    std::deque<std::function<void(std::uint64_t, double, Status)>> observers;  // they do not move
     std::exception_ptr thrown;
 
     static void on_hang(void* self, const char* who, const char* function, double seconds) {
@@ -653,8 +655,9 @@ class Run {
                         lockstep_status status) {
       auto& hooks = *static_cast<Hooks*>(self);
       try {
-        for (const auto& observe : hooks.observers) {
-          observe(tick, seconds, static_cast<Status>(status));
+        const std::size_t count = hooks.observers.size();  // one of them may add others
+        for (std::size_t i = 0; i < count; ++i) {
+          hooks.observers[i](tick, seconds, static_cast<Status>(status));
         }
       } catch (...) {
         hooks.thrown = std::current_exception();
