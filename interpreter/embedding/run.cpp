@@ -194,8 +194,9 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
 
 void lockstep_run_free(lockstep_run* run) {
   shielded([&] {
-    if (run != nullptr && run->is_busy) return fail("the run is in use: it is not freed");
-    if (run != nullptr && run->process.is_this()) delete run;
+    if (run == nullptr || !run->process.is_this()) return true;
+    if (std::exchange(run->is_busy, true)) return fail("the run is in use: it is not freed");
+    delete run;
     return true;
   });
 }

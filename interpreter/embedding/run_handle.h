@@ -42,8 +42,8 @@ struct lockstep_run {
                  {.period = lockstep::host::deadline_of(1, options.rate),
                   .real_time = !options.virtual_time}),
         properties(program->runnable.tree),
-        run(program->runnable.tree, with_own(std::move(options))),
-        warnings(program->runnable.tree, leaf_log()) {}
+        warnings(program->runnable.tree, leaf_log()),
+        run(program->runnable.tree, with_own(std::move(options))) {}
   ~lockstep_run() { end(); }
 
   // Lines of leaves go to the program, and to those who watch.
@@ -91,7 +91,6 @@ struct lockstep_run {
   lockstep::host::embedding::RunLimitsWatch limits;
   lockstep::host::embedding::RunWatchers watchers;
   lockstep::host::embedding::RunProperties properties;
-  lockstep::host::Run run;
   lockstep::host::Warnings warnings;
   std::unique_ptr<lockstep::host::KeptRun> kept;  // null: it is not kept in a file
   std::string not_kept;                           // why not any more
@@ -102,6 +101,7 @@ struct lockstep_run {
   const lockstep::host::OwnProcess process;
   std::string text;                  // of the last get_text or fault
   std::vector<lockstep_text> texts;  // of the last get_text_list
+  lockstep::host::Run run;           // last: when it ends, it calls back what uses all of the above
 };
 
 namespace lockstep::host::embedding {

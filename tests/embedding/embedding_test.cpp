@@ -257,6 +257,42 @@ TEST_CASE("what a run calls back cannot tick, halt, restart or free it") {
   CHECK(observed == 5);
 }
 
+TEST_CASE("what a run calls back while it is freed may read it, and cannot tick, halt or free it") {
+  const runtime::Project project = project_of("<Step ticks=\"{n}\"/>");
+  lockstep_run* const run = lockstep_run_new(project.get(), nullptr);
+  REQUIRE(run != nullptr);
+  struct Seen {
+    Strings refused, texts;
+  } seen;
+  const auto watch = [](void* user, lockstep_run* it, std::uint32_t node, std::int32_t what,
+                        lockstep_status) -> lockstep_status {
+    if (what != LOCKSTEP_BEFORE_HALT && what != LOCKSTEP_AFTER_HALT) return LOCKSTEP_IDLE;
+    auto& to = *static_cast<Seen*>(user);
+    const auto note = [&] { to.refused.emplace_back(lockstep_last_error()); };
+    lockstep_run_tick(it, 1), note();
+    lockstep_run_halt(it), note();
+    lockstep_run_restart(it, 1), note();
+    lockstep_run_keep(it, "/no/such/folder/file", nullptr, nullptr), note();
+    lockstep_run_free(it), note();
+    auto state = runtime::detail::sized<lockstep_node_state>();
+    CHECK(lockstep_run_node(it, node, &state));
+    CHECK(lockstep_run_fault(it, nullptr) == nullptr);
+    CHECK(lockstep_run_observe(it, nullptr, user));
+    to.texts.emplace_back(lockstep_run_get_text(it, "n"));
+    return LOCKSTEP_IDLE;
+  };
+  const std::uint32_t step = 0;
+  REQUIRE(lockstep_run_watch_nodes(run, &step, 1, watch, &seen));
+  CHECK(lockstep_run_tick(run, 0) == LOCKSTEP_RUNNING);
+  lockstep_run_free(run);
+  CHECK(calls == Strings{"halt"});
+  CHECK(seen.texts == Strings{"1", "1"});
+  const std::string busy = "the run is in use: what it calls back cannot tick, halt or restart it";
+  const std::string freed = "the run is in use: it is not freed";
+  CHECK(seen.refused ==
+        Strings{busy, busy, busy, busy, freed, busy, busy, busy, busy, freed});
+}
+
 TEST_CASE("a progress that is no share, and a failure that the run goes on after, are reported") {
   runtime::Project project;
   project.add_leaf<Step>("Step", "Makes a step in each tick").add_leaf<Percent>("Percent", "In %");
