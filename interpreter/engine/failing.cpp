@@ -23,9 +23,14 @@ bool Ticker::take_failed(NodeIndex node) {
 }
 
 void Ticker::report_fault(NodeIndex leaf, std::string message) {
-  const bool is_over = status(leaf) != Status::Running;
-  set_fault(leaf, std::move(message));
-  if (is_over) this->leaf(leaf).mark(LeafSlot::kFailed, false);
+  set_fault_around(leaf, status(leaf) == Status::Running, std::move(message));
+}
+
+void NodeContext::set_fault_around(NodeIndex node, bool runs, std::string message) {
+  set_fault(node, std::move(message));
+  if (runs || tree_.labels[node].type->leaf == nullptr) return;
+  leaf(node).mark(LeafSlot::kFailed, false);
+  leaf(node).set_started(false);  // after a fault it counts as running, with nothing to halt
 }
 
 // Called in a tick in which something is wrong. Nothing: the node is ticked as always.

@@ -299,6 +299,10 @@ void NodeContext::end_calls_in_line() {
 }
 
 void NodeContext::keep_ancestors_running(NodeIndex node) {
+  // The node too, if it halts its children itself and some of them run.
+  for (NodeIndex child = node + 1; child < end_of(node); child = end_of(child)) {
+    if (status(child) == Status::Running) state_.activity[node] = Activity::Running;
+  }
   while (node != tree_.labels[node].parent) {
     node = tree_.labels[node].parent;
     if (status(node) != Status::Running) state_.activity[node] = Activity::Running;

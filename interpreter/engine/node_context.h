@@ -146,6 +146,9 @@ class NodeContext : public RunView {
   // Under FaultPolicy::Fail the fault is noted in RunState::tolerated, and a leaf's slot is marked
   // failed: its tick, or the next one, returns Failure.
   void set_fault(NodeIndex node, std::string message);
+  // A fault in none of the node's calls: of a script around it, of who watches it, of its owner.
+  // `runs`: until it is halted; else nothing is left of this for its next activation.
+  void set_fault_around(NodeIndex node, bool runs, std::string message);
   // Only the first of each leaf is kept.
   void note_out_of_range(NodeIndex node, double reported);
   // The first tick of a leaf that was cut. Running: it begins, as an idle one; else its result.

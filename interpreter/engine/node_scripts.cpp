@@ -87,8 +87,6 @@ std::optional<Status> NodeScripts::ask_while(NodeIndex node, const HookedNode& h
   if (goes_on == Truth::Yes) return std::nullopt;
   if (goes_on == Truth::Error) return Status::Failure;
   if (runs) context_.halt(node);
-  // If that was a fault, the node counts as running until the end of the run, which is to come.
-  if (hooked.of_plugin) context_.leaf(node).set_started(false);
   return Status::Skipped;
 }
 
@@ -136,10 +134,9 @@ void NodeScripts::run_halted(NodeIndex node) {
 // Under FaultPolicy::Fail the node fails, whatever it is; what runs in it is halted.
 void NodeScripts::fail(NodeIndex node, std::string_view attribute, std::string_view wrong) {
   std::string message = "its ";
-  context_.set_fault(node, message.append(attribute).append(": ").append(wrong));
-  if (context_.faulted()) return;
-  context_.halt(node);
-  if (tree_.labels[node].type->leaf != nullptr) context_.leaf(node).mark(LeafSlot::kFailed, false);
+  context_.set_fault_around(node, !context_.first_tick(node),
+                            message.append(attribute).append(": ").append(wrong));
+  if (!context_.faulted()) context_.halt(node);
 }
 
 }  // namespace lockstep::host

@@ -13,7 +13,6 @@ Status decide(NodeContext& context, NodeIndex self, const NodeKind& kind, bool b
   if (!begins) context.halt(self);
   if (context.faulted()) return Status::Running;
   if (begins && kind.decided != nullptr) kind.decided(context, self, status);
-  if (context.tree().labels[self].type->leaf != nullptr) context.leaf(self).set_started(false);
   return status;
 }
 

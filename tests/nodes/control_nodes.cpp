@@ -97,6 +97,25 @@ class Watching : public Decorator<> {
   void resume() override { watching_seen("resume"); }
 };
 
+// Its halt comes before that of its children, and is a fault.
+class HaltsFirst : public Control<> {
+ public:
+  Status tick() override {
+    for (std::uint32_t child = 0; child < child_count(); ++child) tick_child(child);
+    return Status::Running;
+  }
+  void halt() override {
+    watching_seen("halt");
+    throw std::runtime_error("broken");
+  }
+};
+
+constexpr lockstep_leaf_type halts_first() {
+  lockstep_leaf_type type = leaf<HaltsFirst>("HaltsFirst", "");
+  type.flags |= LOCKSTEP_HALTS_CHILDREN;
+  return type;
+}
+
 class OtherThread : public Decorator<> {
  public:
   Status tick() override {
@@ -112,7 +131,8 @@ LOCKSTEP_PLUGIN_TABLE(kTable, "tests", "1.0", "Control nodes for tests",
                       leaf<InOrder>("InOrder", ""), leaf<First>("First", ""),
                       leaf<Every>("Every", ""), leaf<Halts>("Halts", ""),
                       leaf<Breach>("Breach", ""), leaf<TickInHalt>("TickInHalt", ""),
-                      leaf<Watching>("Watching", ""), leaf<OtherThread>("OtherThread", ""));
+                      leaf<Watching>("Watching", ""), leaf<OtherThread>("OtherThread", ""),
+                      halts_first());
 
 const lockstep_plugin& kControlNodes = kTable;
 

@@ -95,6 +95,51 @@ TEST_CASE(
         "start b, tick b, tick a, pause b");
 }
 
+TEST_CASE("a leaf whose halt is a fault is not halted again at the end of the run") {
+  ScriptedRun leaf("Fallback(a b)", "a=R!halt b=S");
+  leaf.tick(Nanoseconds(0));
+  leaf.events.clear();
+  leaf.ticker().fail_next(1);
+  CHECK(leaf.tick(std::chrono::milliseconds(100)) == Status::Running);
+  CHECK(leaf.ticker().faulted());
+  CHECK(told(leaf) == " halt a");
+}
+
+TEST_CASE("a node that halts its children itself, and is at fault in that, is halted once") {
+  ScriptedRun run("Sequence(c? HaltsFirst(a b))", "c=SF a=R b=R");
+  std::string seen;
+  watching_seen = [&](const char* function) { seen += std::string(function) + ";"; };
+  run.tick(Nanoseconds(0));
+  run.events.clear();
+  run.tick(std::chrono::milliseconds(100));
+  CHECK(run.ticker().faulted());
+  CHECK(seen == "halt;");
+  CHECK(told(run) == " start c, tick c, halt a, halt b");
+}
+
+TEST_CASE("a node whose child is at fault in a halt by a script is halted after it") {
+  ScriptedRun run(
+      "Sequence[memory=true](Script[code=n:=0] Parallel(Watching[while=n<1](a) "
+      "b[on_success=n:=1] c))",
+      "a=R!halt b=S c=R");
+  std::string seen;
+  watching_seen = [&](const char* function) { seen += std::string(function) + ";"; };
+  for (int tick = 0; tick < 3; ++tick) run.tick(tick * std::chrono::milliseconds(100));
+  CHECK(run.ticker().faulted());
+  CHECK(seen == "halt;");
+}
+
+TEST_CASE("a leaf that has completed is not halted after a fault of a script around it") {
+  ScriptedRun run(
+      "Sequence[memory=true](Script[code=n:=0] Sequence(a[skip_if=n] Script[code=n:=2] b))",
+      "a=S b=R");
+  CHECK(run.tick(Nanoseconds(0)) == Status::Running);
+  run.events.clear();
+  CHECK(run.tick(std::chrono::milliseconds(100)) == Status::Running);
+  CHECK(run.ticker().faulted());
+  CHECK(told(run) == " halt b");
+}
+
 TEST_CASE("an order that no tick reached is over when it was taken back") {
   ScriptedRun run("ParallelAbsolute[barriers=.5](a Parallel(b))", "a=R.1R.1R.9 b=R.7");
   run.tick_root(Nanoseconds(0));

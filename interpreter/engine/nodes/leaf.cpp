@@ -70,6 +70,7 @@ void halt_before_children(NodeContext& context, NodeIndex self, LeafSlot& leaf) 
             [](const LeafSlot& it) { it.type->halt(it.self); });
     take_error(context, self, leaf);
   }
+  if (context.faulted()) leaf.set_started(false);
   context.halt_range(self + 1, context.end_of(self));
   leaf.mark(LeafSlot::kFailed | LeafSlot::kCut, false);
 }
@@ -86,6 +87,7 @@ void halt_leaf(NodeContext& context, NodeIndex self) {
     if (context.faulted() && !context.in_last_halt()) return;  // halted at the end of the run
   }
   if (leaf.started()) call<PluginFunction::Halt>(context, self, leaf.type->halt);
+  if (context.faulted()) leaf.set_started(false);  // not again at the end of the run
   leaf.mark(LeafSlot::kFailed | LeafSlot::kCut, false);
 }
 
