@@ -8,15 +8,13 @@ std::optional<Status> NodeCalls::before_tick(NodeIndex node) {
   const Status status = context_.status(node);
   const auto decided = call(node, LOCKSTEP_BEFORE_TICK, status);
   if (!decided || *decided != Status::Running) return decided;
-  context_.set_fault(node, "its watcher returned running before its tick, which is not a result");
-  return Status::Failure;
+  return fail(node, status, "its watcher returned running before its tick, which is not a result");
 }
 
 std::optional<Status> NodeCalls::after_tick(NodeIndex node, Status status) {
   const auto decided = call(node, LOCKSTEP_AFTER_TICK, status);
   if (!decided || *decided == status || *decided != Status::Running) return decided;
-  context_.set_fault(node, "who watches it has returned running for a node that has ended");
-  return std::nullopt;
+  return fail(node, status, "who watches it has returned running for a node that has ended");
 }
 
 std::optional<Status> NodeCalls::call(NodeIndex node, int32_t what, Status status) {
@@ -27,10 +25,14 @@ std::optional<Status> NodeCalls::call(NodeIndex node, int32_t what, Status statu
   if (given > LOCKSTEP_IDLE && given <= static_cast<lockstep_status>(kLastStatus)) {
     return static_cast<Status>(given);
   }
-  context_.set_fault(node, fmt::format("who watches it has returned status {}, expected one of "
-                                       "lockstep/leaf.h",
-                                       static_cast<int>(given)));
-  return std::nullopt;
+  return fail(
+      node, status,
+      fmt::format("who watches it has returned status {}, expected one of lockstep/leaf.h", given));
+}
+
+Status NodeCalls::fail(NodeIndex node, Status status, std::string message) {
+  context_.set_fault_around(node, status == Status::Running, std::move(message));
+  return Status::Failure;
 }
 
 }  // namespace lockstep::host::embedding

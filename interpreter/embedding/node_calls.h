@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "embedding/lockstep/runtime.h"
 #include "engine/blackboard.h"
@@ -30,6 +31,8 @@ class NodeCalls final : public NodeWatch {
     call_(user_, &run_, node, what, LOCKSTEP_IDLE);
   }
   std::optional<Status> call(NodeIndex node, int32_t what, Status status);
+  // A fault, or a Failure that the run continues after.
+  Status fail(NodeIndex node, Status status, std::string message);
 
   lockstep_run& run_;
   NodeContext& context_;

@@ -82,6 +82,27 @@ class DoesAsTold : public lockstep::Action<> {
   static inline std::function<void()> in_tick;
 };
 
+// Notes its calls, and succeeds in the second tick.
+class Told : public lockstep::Action<> {
+ public:
+  void start() override {
+    calls.push_back("start");
+    ticks_ = 0;
+  }
+  Status tick() override {
+    calls.push_back("tick");
+    return ++ticks_ < 2 ? Status::Running : Status::Success;
+  }
+  void halt() override {
+    calls.push_back("halt");
+    if (breaks) throw std::runtime_error("cannot halt");
+  }
+  static inline bool breaks = false;
+
+ private:
+  int ticks_ = 0;
+};
+
 // Is done when a thread of its own has said so.
 class Asks : public lockstep::Action<> {
  public:
@@ -289,8 +310,7 @@ TEST_CASE("what a run calls back while it is freed may read it, and cannot tick,
   CHECK(seen.texts == Strings{"1", "1"});
   const std::string busy = "the run is in use: what it calls back cannot tick, halt or restart it";
   const std::string freed = "the run is in use: it is not freed";
-  CHECK(seen.refused ==
-        Strings{busy, busy, busy, busy, freed, busy, busy, busy, busy, freed});
+  CHECK(seen.refused == Strings{busy, busy, busy, busy, freed, busy, busy, busy, busy, freed});
 }
 
 TEST_CASE("a progress that is no share, and a failure that the run goes on after, are reported") {
@@ -1143,6 +1163,88 @@ TEST_CASE("a node that is watched is told before and after each tick, and gets a
   CHECK(seen.calls.empty());
   const std::uint32_t none = 99;
   CHECK_FALSE(lockstep_run_watch_nodes(run.get(), &none, 1, watch, &seen));
+}
+
+// A watcher that returns `given` once.
+struct WatchedOnce {
+  std::int32_t what = LOCKSTEP_BEFORE_TICK;
+  lockstep_status status = LOCKSTEP_IDLE;  // of the node then
+  lockstep_status given = LOCKSTEP_IDLE;
+
+  static lockstep_status call(void* user, lockstep_run*, std::uint32_t, std::int32_t what,
+                              lockstep_status status) {
+    auto& it = *static_cast<WatchedOnce*>(user);
+    if (what != it.what || status != it.status) return LOCKSTEP_IDLE;
+    return std::exchange(it.given, LOCKSTEP_IDLE);
+  }
+};
+
+TEST_CASE("a status of a watcher that is none is a fault of the node, and leaves its leaf whole") {
+  struct Row {
+    WatchedOnce watch;
+    bool fails_on_fault;
+    Strings calls;  // of three ticks and a halt
+  };
+  const Strings whole = {"start", "tick", "tick"};
+  const lockstep_status none = 77;
+  const std::vector<Row> rows = {
+      // Before its first tick, it is not started.
+      {{LOCKSTEP_BEFORE_TICK, LOCKSTEP_IDLE, LOCKSTEP_RUNNING}, true, {}},
+      {{LOCKSTEP_BEFORE_TICK, LOCKSTEP_IDLE, none}, true, {}},
+      {{LOCKSTEP_BEFORE_TICK, LOCKSTEP_IDLE, LOCKSTEP_RUNNING}, false, {}},
+      {{LOCKSTEP_BEFORE_TICK, LOCKSTEP_IDLE, none}, false, {}},
+      // One that runs is halted.
+      {{LOCKSTEP_BEFORE_TICK, LOCKSTEP_RUNNING, LOCKSTEP_RUNNING}, true, {"start", "tick", "halt"}},
+      {{LOCKSTEP_BEFORE_TICK, LOCKSTEP_RUNNING, none}, false, {"start", "tick", "halt"}},
+      {{LOCKSTEP_AFTER_TICK, LOCKSTEP_RUNNING, none}, true, {"start", "tick", "halt"}},
+      {{LOCKSTEP_AFTER_TICK, LOCKSTEP_RUNNING, none}, false, {"start", "tick", "halt"}},
+      // One that has ended is not.
+      {{LOCKSTEP_AFTER_TICK, LOCKSTEP_SUCCESS, LOCKSTEP_RUNNING}, true, {"start", "tick", "tick"}},
+      {{LOCKSTEP_AFTER_TICK, LOCKSTEP_SUCCESS, none}, true, {"start", "tick", "tick"}},
+      {{LOCKSTEP_AFTER_TICK, LOCKSTEP_SUCCESS, LOCKSTEP_RUNNING}, false, {"start", "tick", "tick"}},
+      {{LOCKSTEP_AFTER_TICK, LOCKSTEP_SUCCESS, none}, false, {"start", "tick", "tick"}},
+  };
+  runtime::Project project;
+  project.add_leaf<Told>("Told", "Has two ticks");
+  project.load_text(tree("<Told/>"));
+  for (const Row& row : rows) {
+    INFO(row.watch.what << " " << row.watch.status << " " << row.watch.given << " "
+                        << row.fails_on_fault);
+    calls.clear();
+    runtime::Run run(project, {0, 0.01, row.fails_on_fault});
+    WatchedOnce watch = row.watch;
+    const std::uint32_t node = 0;
+    REQUIRE(lockstep_run_watch_nodes(run.get(), &node, 1, WatchedOnce::call, &watch));
+    for (int tick = 0; watch.given != LOCKSTEP_IDLE; ++tick) {
+      REQUIRE(tick < 3);
+      const bool is_fault = error_of([&] { run.tick(tick); }) != "no error";
+      CHECK(is_fault == (!row.fails_on_fault && watch.given == LOCKSTEP_IDLE));
+    }
+    if (row.fails_on_fault) CHECK(run.node(0).status == Status::Failure);
+    CHECK(calls == row.calls);
+    if (!row.fails_on_fault) run.recover();
+    CHECK(calls == row.calls);
+    calls.clear();
+    CHECK(run.tick(5) == Status::Running);
+    CHECK(run.tick(6) == Status::Success);
+    CHECK(calls == whole);
+  }
+}
+
+TEST_CASE("a leaf whose halt is a fault is not halted again when its watcher gives a result") {
+  runtime::Project project;
+  project.add_leaf<Told>("Told", "Has two ticks");
+  project.load_text(tree("<Told/>"));
+  calls.clear();
+  Told::breaks = true;
+  runtime::Run run(project);
+  WatchedOnce watch{LOCKSTEP_AFTER_TICK, LOCKSTEP_RUNNING, LOCKSTEP_SUCCESS};
+  const std::uint32_t node = 0;
+  REQUIRE(lockstep_run_watch_nodes(run.get(), &node, 1, WatchedOnce::call, &watch));
+  CHECK(error_of([&] { run.tick(0); }) == "Main/Told: cannot halt");
+  run.recover();
+  CHECK(calls == Strings{"start", "tick", "halt"});
+  Told::breaks = false;
 }
 
 TEST_CASE("a node that a leaf before it begins to watch is reported in the same tick") {

@@ -438,6 +438,8 @@ enum {
   LOCKSTEP_AFTER_HALT = 3
 };
 /* Returns LOCKSTEP_IDLE to leave all as it is. A node that gets a result while it runs is halted.
+ * LOCKSTEP_RUNNING, where that is not the status of the node after its tick, and what is no status
+ * are a fault of the node.
  * It may read and write entries, and must not tick, halt, restart or free the run. */
 typedef lockstep_status (*lockstep_watch_node)(void* user, lockstep_run* run, uint32_t node,
                                                int32_t what, lockstep_status status);
@@ -488,8 +490,8 @@ typedef struct lockstep_loop_options {
   uint64_t max_ticks;   /* 0: any number */
   double timeout;       /* seconds; 0: none */
   bool virtual_clock;   /* time jumps to the next tick: as fast as possible, the same every time */
-  /* Called before each tick, and on the wall clock also while the loop waits for the next one. True:
-   * stop; it is not called again then. May be NULL */
+  /* Called before each tick, and on the wall clock also while the loop waits for the next one.
+   * True: stop; it is not called again then. May be NULL */
   bool (*stop)(void* user);
   void* user;
 } lockstep_loop_options;
