@@ -145,20 +145,20 @@ bool set(lockstep_run* run, Where where, T value) {
   return put(run, where, std::move(value));
 }
 
-// A whole number where the entry has a real one, if it is that exactly.
+// A whole number where the entry has a real one: the nearest. An entry that may also have the whole
+// number keeps that, if no real one is the same.
 template <class Where>
 bool set(lockstep_run* run, Where where, std::int64_t value) {
+  constexpr auto kExact = std::int64_t{1} << std::numeric_limits<double>::digits;
+  const bool is_exact = value <= kExact && value >= -kExact;
   const bool is_real = guarded([&] {
     const InEngine scope(lock_of(run));
     const Entry* const entry = find_entry(run, where);
-    return entry != nullptr &&
-           (entry->typing == Typing::Any ? std::holds_alternative<double>(entry->value())
-                                         : entry->type == ValueType::Double);
+    return entry != nullptr && (entry->typing == Typing::Any
+                                    ? is_exact && std::holds_alternative<double>(entry->value())
+                                    : entry->type == ValueType::Double);
   });
-  const auto real = static_cast<double>(value);
-  constexpr auto kExact = std::int64_t{1} << std::numeric_limits<double>::digits;
-  return is_real && value <= kExact && value >= -kExact ? put(run, where, real)
-                                                        : put(run, where, value);
+  return is_real ? put(run, where, static_cast<double>(value)) : put(run, where, value);
 }
 
 template <class Item, class Where>

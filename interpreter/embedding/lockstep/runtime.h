@@ -250,9 +250,9 @@ LOCKSTEP_EXPORT bool lockstep_run_answer(lockstep_run* run, uint32_t node, const
 
 /* Blackboard entries, between ticks, by key: "height", or "Deliver/height" in a SubTree. get fails
  * while nothing has written the entry. Numbers, flags and lists need an entry of their type; but
- * get_double also reads an int, and set_int sets a double where the entry is one. Text is written
- * as in XML and works for all, also for objects whose type has texts. A text or list that get gives
- * is valid until the next call for this run; set copies. */
+ * get_double also reads an int, and set_int sets the nearest double where the entry is one. Text is
+ * written as in XML and works for all, also for objects whose type has texts. A text or list that
+ * get gives is valid until the next call for this run; set copies. */
 LOCKSTEP_EXPORT const char* lockstep_run_get_text(lockstep_run* run, const char* key);
 LOCKSTEP_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value);
 LOCKSTEP_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);
