@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -172,28 +173,33 @@ bool set_list(lockstep_run* run, Where where, const Item* items, std::size_t cou
 }
 
 template <class Where>
-const char* get_text(lockstep_run* run, Where where) {
-  return guarded([&]() -> const char* {
+bool get_text(lockstep_run* run, Where where, lockstep_text* text) {
+  return guarded([&] {
     const InEngine scope(lock_of(run));
+    if (text == nullptr) return fail("an argument is NULL");
     const Entry* const entry = find_entry(run, where);
-    if (entry == nullptr) return nullptr;
-    if (!entry->has_value()) {
-      fail_to_read(*run, *entry);
-      return nullptr;
-    }
+    if (entry == nullptr) return false;
+    if (!entry->has_value()) return fail_to_read(*run, *entry);
     run->text = to_text(entry->value());
-    return run->text.c_str();
+    *text = {run->text.c_str(), run->text.size()};
+    return true;
   });
 }
 
 template <class Where>
-bool set_text(lockstep_run* run, Where where, const char* text) {
+const char* get_text(lockstep_run* run, Where where) {
+  lockstep_text text{};
+  return get_text(run, where, &text) ? text.text : nullptr;
+}
+
+template <class Where>
+bool set_text(lockstep_run* run, Where where, const char* text, std::size_t length) {
   return guarded([&] {
     const InEngine scope(lock_of(run));
-    if (!is_text("the text", text)) return false;
+    if (!is_text("the text", text, length)) return false;
     Entry* const entry = find_entry(run, where);
     if (entry == nullptr) return false;
-    auto value = parse_value(entry->type, entry->object, text);
+    auto value = parse_value(entry->type, entry->object, {text, length});
     if (!value) {
       return fail(fmt::format("the entry '{}' is of type {}: expected {}", key_of(*run, *entry),
                               type_name(entry->type, entry->object),
@@ -201,6 +207,11 @@ bool set_text(lockstep_run* run, Where where, const char* text) {
     }
     return write(*entry, std::move(*value));
   });
+}
+
+template <class Where>
+bool set_text(lockstep_run* run, Where where, const char* text) {
+  return set_text(run, where, text, text == nullptr ? 0 : std::strlen(text));
 }
 
 template <class Where>
@@ -318,6 +329,13 @@ LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
 const char* lockstep_run_get_text(lockstep_run* run, const char* key) {
   return get_text(run, key);
 }
+bool lockstep_run_get_sized_text(lockstep_run* run, const char* key, lockstep_text* text) {
+  return get_text(run, key, text);
+}
+bool lockstep_run_set_sized_text(lockstep_run* run, const char* key, const char* text,
+                                 size_t length) {
+  return set_text(run, key, text, length);
+}
 bool lockstep_run_get_text_list(lockstep_run* run, const char* key, const lockstep_text** values,
                                 size_t* count) {
   return get_text_list(run, key, values, count);
@@ -335,6 +353,13 @@ lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key) {
 
 const char* lockstep_run_get_text_at(lockstep_run* run, uint32_t entry) {
   return get_text(run, entry);
+}
+bool lockstep_run_get_sized_text_at(lockstep_run* run, uint32_t entry, lockstep_text* text) {
+  return get_text(run, entry, text);
+}
+bool lockstep_run_set_sized_text_at(lockstep_run* run, uint32_t entry, const char* text,
+                                    size_t length) {
+  return set_text(run, entry, text, length);
 }
 bool lockstep_run_get_text_list_at(lockstep_run* run, uint32_t entry, const lockstep_text** values,
                                    size_t* count) {

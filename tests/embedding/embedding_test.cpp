@@ -468,6 +468,26 @@ TEST_CASE("entries are read and written by key") {
   CHECK(run.get<double>("step") == -0x1p53);
 }
 
+TEST_CASE("a text with a NUL is whole, by key and by handle") {
+  runtime::Project project;
+  project.add_leaf<Carry>("Carry", "Adds");
+  project.load_text(
+      tree("<Sequence><Script code=\"t := 'x'\"/><Carry words=\"{w}\" from=\"{p}\" "
+           "to=\"{q}\"/></Sequence>"));
+  runtime::Run run(project);
+  const std::string text("a\0b", 3);
+  run.set("t", text);
+  CHECK(run.get<std::string>("t") == text);
+  const runtime::EntryHandle handle = project.find_entry("t");
+  run.set(handle, text + text);
+  CHECK(run.get<std::string>(handle) == text + text);
+  CHECK(std::string(lockstep_run_get_text(run.get(), "t")) == "a");
+  run.set("w", text + ";c");
+  CHECK(run.get<Strings>("w") == Strings{text, "c"});
+  CHECK_FALSE(lockstep_run_set_sized_text(run.get(), "t", nullptr, 0));
+  CHECK_FALSE(lockstep_run_get_sized_text(run.get(), "t", nullptr));
+}
+
 TEST_CASE("an entry that was found once is read and written by its handle, in all runs") {
   std::optional<runtime::Run> first, second;
   runtime::EntryHandle step, n;

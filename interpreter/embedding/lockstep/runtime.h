@@ -258,6 +258,11 @@ LOCKSTEP_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, b
 LOCKSTEP_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);
 LOCKSTEP_EXPORT bool lockstep_run_get_double(lockstep_run* run, const char* key, double* value);
 LOCKSTEP_EXPORT bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text);
+/* Texts with their length, which may contain a NUL. */
+LOCKSTEP_EXPORT bool lockstep_run_get_sized_text(lockstep_run* run, const char* key,
+                                                 lockstep_text* text);
+LOCKSTEP_EXPORT bool lockstep_run_set_sized_text(lockstep_run* run, const char* key,
+                                                 const char* text, size_t length);
 LOCKSTEP_EXPORT bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value);
 LOCKSTEP_EXPORT bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value);
 LOCKSTEP_EXPORT bool lockstep_run_set_double(lockstep_run* run, const char* key, double value);
@@ -289,6 +294,10 @@ LOCKSTEP_EXPORT bool lockstep_run_get_bool_at(lockstep_run* run, uint32_t entry,
 LOCKSTEP_EXPORT bool lockstep_run_get_int_at(lockstep_run* run, uint32_t entry, int64_t* value);
 LOCKSTEP_EXPORT bool lockstep_run_get_double_at(lockstep_run* run, uint32_t entry, double* value);
 LOCKSTEP_EXPORT bool lockstep_run_set_text_at(lockstep_run* run, uint32_t entry, const char* text);
+LOCKSTEP_EXPORT bool lockstep_run_get_sized_text_at(lockstep_run* run, uint32_t entry,
+                                                    lockstep_text* text);
+LOCKSTEP_EXPORT bool lockstep_run_set_sized_text_at(lockstep_run* run, uint32_t entry,
+                                                    const char* text, size_t length);
 LOCKSTEP_EXPORT bool lockstep_run_set_bool_at(lockstep_run* run, uint32_t entry, bool value);
 LOCKSTEP_EXPORT bool lockstep_run_set_int_at(lockstep_run* run, uint32_t entry, int64_t value);
 LOCKSTEP_EXPORT bool lockstep_run_set_double_at(lockstep_run* run, uint32_t entry, double value);

@@ -112,7 +112,6 @@ class Project {
     return *this;
   }
 
-
   Project& add_plugin_path(const std::string& directory) {
     return check(lockstep_project_add_plugin_path(it_.get(), directory.c_str()));
   }
@@ -313,8 +312,8 @@ struct LoopSettings {
   std::uint64_t max_ticks = 0;  // 0: any number; on the virtual clock a million
   double timeout = 0;           // seconds; 0: none
   Overrun overrun = Overrun::Skip;
-  // Called before each tick, and on the wall clock also while the loop waits for the next one. True:
-  // stop; it is not called again then.
+  // Called before each tick, and on the wall clock also while the loop waits for the next one.
+  // True: stop; it is not called again then.
   std::function<bool()> stop = {};
 };
 
@@ -546,7 +545,8 @@ class Run {
     set(entry, static_cast<std::int64_t>(value));
   }
   void set(const EntryName& entry, const std::string& text) {
-    write(entry, lockstep_run_set_text, lockstep_run_set_text_at, text.c_str());
+    write(entry, lockstep_run_set_sized_text, lockstep_run_set_sized_text_at, text.data(),
+          text.size());
   }
   void set(const EntryName& entry, const char* text) {
     set(entry, std::string(text));
@@ -722,9 +722,9 @@ LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
 // NOLINTEND(bugprone-macro-parentheses)
 template <>
 inline std::string Run::get<std::string>(const EntryName& entry) const {
-  const char* const text = entry.call(lockstep_run_get_text, lockstep_run_get_text_at, it_.get());
-  detail::require(text != nullptr);
-  return text;
+  const auto text =
+      read<lockstep_text>(entry, lockstep_run_get_sized_text, lockstep_run_get_sized_text_at);
+  return {text.text, text.length};
 }
 template <>
 inline std::vector<std::string> Run::get<std::vector<std::string>>(const EntryName& entry) const {
