@@ -42,7 +42,8 @@ struct PacingState {
   double given;           // in its last tick
 };
 
-// What a leaf that obeys keeps of its activation: what it was told last, and took up.
+// What a leaf that obeys keeps of its activation: what it was told last, and took up. After a cut
+// it has been told nothing: what it has kept of itself may have another speed.
 struct LeafPace {
   double told;
   double taken;

@@ -30,9 +30,10 @@ bool is_whole(double value) {
   return std::abs(value - std::round(value)) < 1e-6;
 }
 
-// The fewest parts, at least the usual ones, of which each delta is a multiple; 0: too many.
-std::uint32_t parts_for(const std::vector<double>& deltas) {
-  for (std::uint32_t parts = kUsualParts; parts <= kMostParts; ++parts) {
+// The fewest parts, of these, of which each delta is a multiple; 0: too many.
+std::uint32_t parts_for(const std::vector<double>& deltas, std::uint32_t first = kUsualParts,
+                        std::uint32_t further = 1) {
+  for (std::uint32_t parts = first; parts <= kMostParts; parts += further) {
     if (std::ranges::all_of(deltas, [&](double it) { return is_whole(it * parts); })) return parts;
   }
   return 0;
@@ -333,20 +334,18 @@ class ModelMaker {
   // --- what nothing is said of -------------------------------------------------------------------
 
   // A model is of full speed. Slowed, a leaf may make less progress in a tick, and take more ticks.
-  // It leaves the grid then: a third of a step is none of a grid.
+  // Then it may be between the parts of its grid: a third of a step is none of them.
   void slow_down() {
     for (std::size_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
       LeafModel& model = models_.leaves[leaf];
-      const bool is_on_grid = ways_[leaf].way && ways_[leaf].way->kind == ProgressWay::Kind::Grid;
-      const bool is_bounded = model.least_step > 0 || model.most_ticks > 0 || is_on_grid;
+      Way& way = ways_[leaf];
+      const bool is_bounded = model.least_step > 0 || model.most_ticks > 0 || way.is_grid();
       if (!tree_.leaves[leaf].is_slowed || !is_bounded) continue;
-      if (is_on_grid) {
-        ways_[leaf] = {};
-        for (std::int64_t* it : {&model.least_step, &model.least_drift})
-          *it = *it < 0 ? -kNoEnd : 0;
-        for (std::int64_t* it : {&model.most_step, &model.most_drift}) *it = *it > 0 ? kNoEnd : 0;
-      }
-      model.least_step = std::min<std::int64_t>(model.least_step, 0);
+      way.is_left = way.is_grid();
+      for (std::int64_t* it : {&model.least_step, &model.least_drift})
+        *it = std::min<std::int64_t>(*it, 0);
+      for (std::int64_t* it : {&model.most_step, &model.most_drift})
+        *it = std::max<std::int64_t>(*it, 0);
       model.most_ticks = 0;
       ++models_.slowed;
     }
@@ -451,7 +450,7 @@ class ModelMaker {
     const std::vector<Cuts> all_cuts = cuts_of(tree_, barriers, compared);
     for (std::size_t leaf = 0; leaf < models_.leaves.size(); ++leaf) {
       LeafModel& model = models_.leaves[leaf];
-      const bool is_on_grid = ways_[leaf].way && ways_[leaf].way->kind == ProgressWay::Kind::Grid;
+      const bool is_on_grid = ways_[leaf].is_grid() && !ways_[leaf].is_left;
       Cuts own = cuts[model.node];
       own.is_unknown = all_cuts[model.node].is_unknown;
       find_levels(leaf, own);
@@ -477,11 +476,12 @@ class ModelMaker {
 
   void find_levels(std::size_t leaf, const Cuts& cuts) {
     LeafModel& model = models_.leaves[leaf];
-    auto [way, place] = ways_[leaf];
+    auto [way, place, is_left] = ways_[leaf];
     using Kind = ProgressWay::Kind;
     if (way && way->kind == Kind::None) model.has_progress = false;
     if (!model.has_progress) return;
     const bool wants_grid = !cuts.deltas.empty() || cuts.is_unknown;
+    if (is_left) return find_levels_between(way->parts, wants_grid, cuts.deltas, model);
     const bool is_declared =
         std::ranges::any_of(said_[leaf], [](const auto& it) { return it.word == kProgress; });
     if (is_declared && wants_grid && way->kind == Kind::Cuts) way.reset();
@@ -502,6 +502,22 @@ class ModelMaker {
     }
     if (way && way->kind == Kind::Grid) return;
     for (const double level : cuts.levels()) add_level(model, level);
+  }
+
+  // Of a leaf that may be between the parts of its grid: a part is a region, from which a step
+  // comes to as many regions as it is long. Where a distance counts, no regions are exact: it is at
+  // parts of which its own parts and the distance are multiples.
+  static void find_levels_between(std::uint32_t own, bool wants_grid,
+                                  const std::vector<double>& deltas, LeafModel& model) {
+    const std::uint32_t parts = wants_grid ? std::max(own, parts_for(deltas, own, own)) : own;
+    if (wants_grid) model.parts = parts;
+    for (std::uint32_t part = 1; part <= parts; ++part) {
+      add_level(model, static_cast<double>(part) / parts);
+    }
+    for (std::int64_t* it :
+         {&model.least_step, &model.most_step, &model.least_drift, &model.most_drift}) {
+      if (std::abs(*it) < kNoEnd) *it *= parts / own;
+    }
   }
 
   static void add_level(LeafModel& model, double value) {
@@ -534,6 +550,9 @@ class ModelMaker {
   struct Way {
     std::optional<ProgressWay> way;
     Place place = {};
+    bool is_left = false;  // the leaf may be between the parts of the grid
+
+    bool is_grid() const { return way && way->kind == ProgressWay::Kind::Grid; }
   };
 
   const Tree& tree_;

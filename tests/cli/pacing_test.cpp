@@ -127,3 +127,55 @@ TEST_CASE("a slowed leaf is on no grid: verify finds what a run does") {
     CHECK(contains(proof.out, "NO") == paces);
   }
 }
+
+TEST_CASE("a slowed leaf with a grid moves no further in a tick than its model says") {
+  const TemporaryDirectory directory;
+  const std::string model =
+      directory.file("model.leaves.xml",
+                     "<leaves lockstep=\"1\"><leaf of=\"Advance\" result=\"success\" "
+                     "progress=\"grid:10\" step=\"1\" finish=\"full\"/></leaves>");
+  for (const auto* const node :
+       {"ParallelAbsolute barriers=\"0.55\"", "ParallelRelative delta=\"0.3\""}) {
+    const auto tree_with = [&](const std::string& step) {
+      const std::string name = fmt::format("{}.xml", step);
+      return directory.file(
+          name, tree_text(fmt::format("<{} pace=\"true\"><Advance name=\"arm\" step=\"0.1\"/>"
+                                      "<Advance name=\"base\" step=\"{}\"/></{}>",
+                                      node, step, std::string(node).substr(0, 16))));
+    };
+    const Outcome proof =
+        run_lockstep({"verify", tree_with("0.1"), "--leaves", model, "--out", directory.path("out"),
+                      "--property", "never base.progress > 0.75 and arm.progress < 0.45"});
+    INFO(node << proof.out << proof.err);
+    CHECK(contains(proof.out, "from 10 ticks"));
+    CHECK(contains(proof.out, "holds") != contains(node, "Relative"));
+    for (const std::string step : {"0.1", "0.4"}) {
+      const std::string tree = tree_with(step), recording = directory.path("r.jsonl");
+      REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                            "--record", recording})
+                  .code == 0);
+      const Outcome checked =
+          run_lockstep({"log", "check", recording, "--leaves", model, "--tree-file", tree});
+      INFO(checked.out << checked.err);
+      CHECK((checked.code == 0) == (step == "0.1"));
+    }
+  }
+}
+
+TEST_CASE("the scenario of a paced run is that run, also where a slowed Timeout counts") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      tree_text(
+          "<ParallelRelative delta=\"0.1\" pace=\"true\"><Advance name=\"slow\" step=\"0.02\"/>"
+          "<Timeout seconds=\"3\"><Advance name=\"fast\" step=\"0.05\"/></Timeout>"
+          "</ParallelRelative>"));
+  const std::string recording = directory.path("r.jsonl"), scenario = directory.path("t.test.xml");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                        "--record", recording})
+              .code == 0);
+  REQUIRE(run_lockstep({"log", "scenario", recording, "--save", scenario}).code == 0);
+  const Outcome outcome = run_lockstep({"test", scenario});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+}

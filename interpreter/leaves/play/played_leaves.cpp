@@ -81,6 +81,11 @@ class PlayedLeaf final : public RemoteLeaf {
     const std::size_t count = is_held_ ? held_words() : 0;
     return count == 0 ? progress_ : (*words_)[at_ + count - 1].progress;
   }
+  // The words of a recording are what it did with the factors that it was given. One that takes a
+  // time, or the same words in each activation, takes them however fast it is to be.
+  double set_pace(double factor) override {
+    return words_ == nullptr || restarts_ || time_.count() > 0 ? 1 : factor;
+  }
   void end() override {}
   std::string trouble() override { return {}; }
 
@@ -311,14 +316,13 @@ const NodeType* PlayedLeaves::add_type(const NodeType& from) {
     type.leaf.behavior_count = type.node.leaf->behavior_count;
     type.leaf.behavior = type.node.leaf->behavior;
   }
-  type.leaf.set_pace = nullptr;       // what it does is given
   type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify
   if (!type.node.has_progress) type.leaf.progress = nullptr;
+  type.node.can_be_slowed |= type.node.mock != nullptr;
   type.node.mock = nullptr;
   type.node.leaf = &type.leaf;
   type.node.origin = &plugin_;
   type.node.real_time = false;
-  type.node.can_be_slowed = false;
   if (type.node.plugin.empty()) type.node.plugin = plugin_.name;
   return &type.node;
 }
