@@ -462,14 +462,51 @@ TEST_CASE("lockstep verify: what is not looked at, and not known yet") {
   const std::string endless =
       directory.file("e.leaves.xml",
                      "<leaves lockstep=\"1\"><tree ends=\"no\"/><fact name=\"light\"/></leaves>\n");
-  std::string text = read_file(kCarry);
-  text.replace(text.find("<BehaviorTree"), 0, "<property name=\"p\">never lift.failure</property>");
-  const Outcome outcome =
-      verify(both(directory.file("carry.xml", text)), directory, {"--leaves", endless});
+  const Outcome outcome = verify(both(kCarry), directory, {"--leaves", endless});
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.out, "not asked: <tree ends=\"no\"/>"));
   CHECK(contains(outcome.out, "facts belong to one robot"));
-  CHECK(contains(outcome.err, "carry.xml: its properties are not looked at"));
+}
+
+TEST_CASE("properties of trees of a team: verify and team have a verdict of each, of each robot") {
+  const TemporaryDirectory directory;
+  const auto carry_with = [&](const std::string& properties) {
+    std::string text = read_file(kCarry);
+    text.replace(text.find("<BehaviorTree"), 0, properties);
+    return both(directory.file("carry.xml", text));
+  };
+  const std::vector<std::string> files = carry_with(
+      "<property name=\"low\">never lift.progress > 0.3</property>"
+      "<property name=\"works\">never lift.failure</property>"
+      "<property name=\"comes\">lift.running leads to lift.done</property>");
+  const std::string model = directory.file("m.leaves.xml",
+                                           "<leaves lockstep=\"1\"><leaf path=\"*/lift\" "
+                                           "result=\"success\" progress=\"grid:10\"/></leaves>\n");
+  const Outcome proof = verify(files, directory, {"--leaves", model});
+  INFO(proof.out + proof.err);
+  CHECK(proof.code == 1);
+  for (const std::string robot : {"left", "right"}) {
+    CHECK(contains(proof.out, "finding property/low." + robot + ": "));
+    CHECK(contains(proof.out, "property 'works' of " + robot));
+    const std::string recording =
+        directory.path("carry.property.low." + robot + '.' + robot + ".jsonl");
+    CHECK(contains(run_lockstep({"log", "check", recording}).out, "violated"));
+  }
+  for (const std::string of :
+       {"'works' of left ", "'works' of right", "'comes' of left ", "'comes' of right"})
+    CHECK(contains(proof.out, "property " + of + "  holds\n"));
+  const Outcome played = run_lockstep({"team", files[0], files[1]});
+  CHECK(played.code == 0);
+  CHECK(contains(played.out, "property low: violated in tick "));
+  CHECK(contains(played.out, "property works: holds"));
+  CHECK(contains(run_lockstep({"team", "--json", files[0], files[1]}).out,
+                 R"("verdict": "violated")"));
+  // Where a run may be endless, nothing is known of what it waits for.
+  const std::string endless = directory.file("e.leaves.xml",
+                                             "<leaves lockstep=\"1\"><tree ends=\"no\"/><leaf "
+                                             "path=\"*/lift\" result=\"success\"/></leaves>\n");
+  CHECK(contains(verify(files, directory, {"--leaves", endless}).out,
+                 "not known: a run may be endless"));
 }
 
 TEST_CASE("a robot gets more of a shared pool although one that waits for it has waited longer") {

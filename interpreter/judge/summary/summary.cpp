@@ -159,15 +159,6 @@ void write_link(const WhySummary& node, std::size_t indent, std::string& out, bo
   }
 }
 
-void write_property(const PropertySummary& property, std::string& out, bool color) {
-  const bool is_violated = property.verdict == PropertyVerdict::Violated;
-  out += fmt::format(
-      "  property   {}: {}", printable(property.name),
-      styled(to_string(property.verdict), is_violated ? Style::Bad : Style::Good, color));
-  if (property.tick) out += fmt::format(" in tick {}", *property.tick);
-  out += '\n';
-}
-
 void write_note(std::span<const std::string> lines, std::string& out, bool color) {
   out += styled("note:", Style::Warning, color);
   std::string_view indent = " ";
@@ -178,6 +169,15 @@ void write_note(std::span<const std::string> lines, std::string& out, bool color
 }
 
 }  // namespace
+
+std::string to_text(const PropertySummary& property, bool color) {
+  const bool is_violated = property.verdict == PropertyVerdict::Violated;
+  std::string text = fmt::format(
+      "{}: {}", printable(property.name),
+      styled(to_string(property.verdict), is_violated ? Style::Bad : Style::Good, color));
+  if (property.tick) text += fmt::format(" in tick {}", *property.tick);
+  return text;
+}
 
 std::string_view to_string(RunResult result) {
   constexpr std::string_view kNames[] = {"success", "failure", "stopped", "fault", "skipped"};
@@ -310,7 +310,8 @@ void write_text(const Summary& summary, std::string& out, bool color) {
   out += timing(summary) + worst_tick(summary);
   write_over_budget(summary, out, color);
   write_text(summary.synchronized_nodes, summary.never_reached, out, color);
-  for (const PropertySummary& it : summary.properties) write_property(it, out, color);
+  for (const PropertySummary& it : summary.properties)
+    out += fmt::format("  property   {}\n", to_text(it, color));
   for (const std::string& note : summary.notes) write_note({&note, 1}, out, color);
   for (const auto& note : standstill_notes(summary)) write_note(note, out, color);
 }

@@ -160,6 +160,9 @@ std::vector<std::vector<std::string>> standstill_notes(const Summary& summary);
 
 // One line, no newline. docs/recording.md describes the keys.
 std::string to_json(const Summary& summary);
+Json json_of(const std::vector<PropertySummary>& properties);
+// "grip: violated in tick 33"
+std::string to_text(const PropertySummary& property, bool color);
 // A part of it.
 Json json_of_links(std::span<const WhySummary> links);
 

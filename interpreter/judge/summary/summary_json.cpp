@@ -124,6 +124,15 @@ Json json_of(const std::vector<StandstillSummary>& standstills) {
   return list;
 }
 
+// The notes of the run, and what stood still.
+std::vector<std::string> all_notes(const Summary& summary) {
+  std::vector<std::string> notes = summary.notes;
+  for (const auto& lines : standstill_notes(summary)) notes.push_back(joined(lines, "; "));
+  return notes;
+}
+
+}  // namespace
+
 Json json_of(const std::vector<PropertySummary>& properties) {
   Json list = Json::array();
   for (const PropertySummary& it : properties) {
@@ -134,15 +143,6 @@ Json json_of(const std::vector<PropertySummary>& properties) {
   }
   return list;
 }
-
-// The notes of the run, and what stood still.
-std::vector<std::string> all_notes(const Summary& summary) {
-  std::vector<std::string> notes = summary.notes;
-  for (const auto& lines : standstill_notes(summary)) notes.push_back(joined(lines, "; "));
-  return notes;
-}
-
-}  // namespace
 
 Json json_of_links(std::span<const WhySummary> links) {
   Json list = Json::array();

@@ -17,12 +17,13 @@ const Symmetry kNoneAlike;
 
 }  // namespace
 
-SearchedRobot::SearchedRobot(const Tree& tree, const LeafModels& models, const TeamNames& names,
+SearchedRobot::SearchedRobot(const Tree& tree, const LeafModels& models,
+                             std::span<const Property> properties, const TeamNames& names,
                              std::size_t number, double rate)
     : tree_(tree),
       team_(tree, names.teams, TeamCode::run_of(number), transport_, clock_),
       leaves_(tree.leaves.size()),
-      stepper_(tree, models, {}, rate, kNoneAlike, false, kNever, kNever),
+      stepper_(tree, models, properties, rate, kNoneAlike, false, kNever, kNever),
       moments_(tree, team_.asked()),
       moved_(names.teams.size()) {
   for (const RobotLeaf& it : robot_leaves(tree)) {

@@ -40,8 +40,8 @@ class HeldTransport final : public TeamTransport {
 class SearchedRobot final : private OutsideLeaves {
  public:
   // All must outlive this. `number`: of the robot in the list.
-  SearchedRobot(const Tree& tree, const LeafModels& models, const TeamNames& names,
-                std::size_t number, double rate);
+  SearchedRobot(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+                const TeamNames& names, std::size_t number, double rate);
 
   // Its turn from this state on, in which it has heard these words; its first tick, if `begins`.
   // Then `tick` for each combination of answers, until `next` is false.

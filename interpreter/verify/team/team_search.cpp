@@ -105,7 +105,8 @@ TeamSearch::TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t l
     }
   }
   for (std::size_t robot = 0; robot < trees_.size(); ++robot) {
-    robots_.push_back(std::make_unique<SearchedRobot>(trees_[robot].tree, trees_[robot].models,
+    const TeamTree& it = trees_[robot];
+    robots_.push_back(std::make_unique<SearchedRobot>(it.tree, it.models, it.properties,
                                                       names_[robot], robot, rate));
   }
 }
@@ -124,6 +125,7 @@ std::optional<double> TeamSearch::begin_of(const std::vector<TeamTurn>& run,
 TeamSearchResult TeamSearch::search() {
   began_ = monotonic_now();
   result_.results.resize(robots_.size());
+  for (const TeamTree& it : trees_) result_.owes.emplace_back(it.properties.size());
   std::vector<std::byte> bytes;
   for (std::uint32_t order = 0; order < code_->orders().size(); ++order) {
     TeamState first = code_->first();
@@ -372,12 +374,28 @@ void TeamSearch::look(const Done& done, const TeamState& next) {
                               trees_[turn.robot].tree.path(fault->node), fault->message),
                   done);
     }
+    look_at_properties(done, robot.has_ended());
     look_at_barriers(done);
     look_at_resources(done, next);
     look_at_spread(next);
   }
   result_.may_all_succeed |= std::ranges::all_of(
       next.robots, [](const RobotState& it) { return it.phase == RobotState::Phase::Succeeded; });
+}
+
+void TeamSearch::look_at_properties(const Done& done, bool has_ended) {
+  const std::size_t number = done.turn.robot;
+  const Stepper& stepper = robots_[number]->stepper();
+  const std::span<const Property> properties = trees_[number].properties;
+  for (const std::size_t it : stepper.violated()) {
+    add_finding(fmt::format("property/{}.{}", properties[it].name(), name(number)),
+                fmt::format("property '{}' of {} is violated", properties[it].name(), name(number)),
+                done);
+  }
+  if (has_ended) return;
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    if (stepper.owes(i)) result_.owes[number][i] = true;
+  }
 }
 
 // It may only go on from a barrier where each other one was at it in this round.

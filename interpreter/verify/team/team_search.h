@@ -26,6 +26,7 @@ struct TeamTree {
   const Tree& tree;
   const LeafModels& models;
   std::vector<TeamDeclaration> teams;
+  std::span<const Property> properties = {};
 };
 
 // What a robot did in a turn.
@@ -61,6 +62,9 @@ struct TeamSearchResult {
   std::uint32_t periods = 0;  // of the longest of the shortest runs
   Nanoseconds took{0};
   std::vector<std::set<RobotState::Phase>> results = {};  // of each robot: how it may end
+  // Of each robot and each of its properties: in some state it waits for something, which an
+  // endless run may never do.
+  std::vector<std::vector<bool>> owes = {};
   bool may_all_succeed = false, can_always_end = true;
   struct Spread {
     std::string team;
@@ -117,6 +121,7 @@ class TeamSearch {
     const TeamTurn& turn;
   };
   void look(const Done& done, const TeamState& next);
+  void look_at_properties(const Done& done, bool has_ended);
   void look_at_barriers(const Done& done);
   void look_at_resources(const Done& done, const TeamState& next);
   void look_at_spread(const TeamState& next);

@@ -128,12 +128,15 @@ void TeamOfRobots::use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* 
   robot.paces = paces(loaded.definition);
   ignore_pace(loaded.definition);
   robot.runnable = make_runnable(std::move(loaded));
+  const Tree& tree = robot.runnable.tree;
   std::vector<NodeProblem> problems;
+  Observed observed;
   if (is_searched) {
-    problems = not_verifiable(robot.runnable.tree);
-    add_problems(robot.runnable.tree, problems);
+    problems = not_verifiable(tree);
+    add_problems(tree, problems);
+    observed = observed_by(tree, robot.runnable.properties, problems);
   }
-  robot.models = make_models(robot.runnable.tree, file, said, problems);
+  robot.models = make_models(tree, file, said, problems, observed);
   places.report(problems, said);
 }
 

@@ -15,6 +15,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/team/robot_files.h"
+#include "judge/summary/property_observer.h"
 #include "judge/summary/statistics.h"
 #include "record/write/recorder.h"
 #include "run/loop.h"
@@ -82,6 +83,7 @@ class Robot {
                   *clock_);
     const Shape shape = shape_of(robot_.runnable.tree);
     statistics_.emplace(shape);
+    properties_.emplace(robot_.runnable.properties, [](const Property&, const std::string&) {});
     if (options.record.empty()) return;
     RecorderOptions recorder;
     recorder.path = options.record + '/' + name() + ".jsonl";
@@ -104,7 +106,7 @@ class Robot {
       loop.max_ticks = options.max_ticks.value_or(kMostVirtualTicks);
       loop.stop_signal = StopSignals::received;
       if (options.timeout) loop.timeout = from_seconds(*options.timeout);
-      std::vector<Observer*> observers{&*team_, &*statistics_};
+      std::vector<Observer*> observers{&*team_, &*statistics_, &*properties_};
       if (recorder_) observers.push_back(&*recorder_);
       run_loop(run, *clock_, loop, observers);
     }
@@ -117,7 +119,11 @@ class Robot {
     if (!summary.fault.empty()) return summary.fault;
     return summary.result == RunResult::Stopped ? team_->why() : std::string();
   }
-  Summary summary() const { return statistics_->summary(); }
+  Summary summary() const {
+    Summary summary = statistics_->summary();
+    properties_->add_to(summary);
+    return summary;
+  }
   std::string recording_error() const { return recorder_ ? recorder_->error() : ""; }
 
  private:
@@ -125,6 +131,7 @@ class Robot {
   std::optional<TurnClock> clock_;
   std::optional<TeamRun> team_;
   std::optional<Statistics> statistics_;
+  std::optional<PropertyObserver> properties_;
   std::optional<Recorder> recorder_;
 };
 
@@ -138,6 +145,8 @@ std::string text_of(const std::vector<std::unique_ptr<Robot>>& robots,
     text += fmt::format("{:<{}}  {}, {}, {:.3f} s{}\n", it->name(), width,
                         to_string(summary.result), counted(summary.ticks, "tick"), summary.seconds,
                         it->why().empty() ? "" : ": " + printable(it->why()));
+    for (const PropertySummary& property : summary.properties)
+      text += fmt::format("{:<{}}  property {}\n", "", width, to_text(property, false));
   }
   text += fmt::format("largest spread {:.4g}\n", network.largest_spread());
   return text;
@@ -155,6 +164,7 @@ std::string json_of(const std::vector<std::unique_ptr<Robot>>& robots,
     robot["ticks"] = summary.ticks;
     robot["seconds"] = summary.seconds;
     if (!it->why().empty()) robot["why"] = it->why();
+    if (!summary.properties.empty()) robot["properties"] = json_of(summary.properties);
     all[it->name()] = std::move(robot);
   }
   json["robots"] = std::move(all);

@@ -416,17 +416,7 @@ class VerifyCommand {
 
   std::string stem_of(const Finding& finding) {
     const std::filesystem::path tree(options_.tree == "-" ? "stdin" : options_.tree);
-    std::string name = tree.stem().string() + '.' + finding.name;
-    for (char& it : name) {
-      const bool is_plain =
-          std::isalnum(static_cast<unsigned char>(it)) != 0 || it == '-' || it == '_' || it == '.';
-      if (!is_plain) it = '.';
-    }
-    // A name may have 255 bytes. The end of a path says more than its middle.
-    constexpr std::size_t kMost = 200, kBegin = 60;
-    if (name.size() > kMost) {
-      name = name.substr(0, kBegin) + "..." + name.substr(name.size() - (kMost - kBegin));
-    }
+    std::string name = file_stem(tree.stem().string() + '.' + finding.name);
     const auto count = ++stems_[name];
     if (count > 1) name += fmt::format("-{}", count);
     return options_.out == "." ? name : (std::filesystem::path(options_.out) / name).string();

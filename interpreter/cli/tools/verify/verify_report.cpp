@@ -39,6 +39,18 @@ std::string repeats_text(const Finding& finding) {
 
 }  // namespace
 
+std::string file_stem(std::string name) {
+  for (char& it : name) {
+    const bool is_plain =
+        std::isalnum(static_cast<unsigned char>(it)) != 0 || it == '-' || it == '_' || it == '.';
+    if (!is_plain) it = '.';
+  }
+  // A name may have 255 bytes. The end of a path says more than its middle.
+  constexpr std::size_t kMost = 200, kBegin = 60;
+  if (name.size() <= kMost) return name;
+  return name.substr(0, kBegin) + "..." + name.substr(name.size() - (kMost - kBegin));
+}
+
 std::string_view limit_of(SearchEnd end) {
   constexpr std::string_view kWords[] = {"",       "--states", "transitions", "--memory",
                                          "--time", "--depth",  "a signal",    "--values"};

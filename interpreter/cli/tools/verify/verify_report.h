@@ -24,6 +24,8 @@ struct VerifyReport {
   std::string internal_error = {};  // a run contradicts the search: nothing of it is told as true
 };
 
+// The name of a file about it, without an ending: "carry.property.grip" of "carry.property/grip".
+std::string file_stem(std::string name);
 // Why a search did not look at everything: "--states"; "" if it did.
 std::string_view limit_of(SearchEnd end);
 // "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …",

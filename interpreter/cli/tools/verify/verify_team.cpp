@@ -34,13 +34,10 @@ class TeamVerification {
     if (const int wrong = team_.load(options_.files); wrong != kExitSuccess) return wrong;
     std::vector<TeamTree> trees;
     for (RobotOfTeam& it : team_.robots())
-      trees.push_back({it.label, it.runnable.tree, it.models, it.teams});
+      trees.push_back({it.label, it.runnable.tree, it.models, it.teams, it.runnable.properties});
     for (const RobotOfTeam& it : team_.robots()) {
       must_end_ &= it.models.tree_ends;
       has_facts_ |= !it.models.facts.empty();
-      if (it.runnable.properties.empty()) continue;
-      print_note(fmt::format("{}: its properties are not looked at", printable(it.file)),
-                 "verify this tree by itself");
     }
     TeamSearch search(trees, team_.rate(), options_.late, must_end_, options_.limits);
     found_ = search.search();
@@ -69,7 +66,7 @@ class TeamVerification {
         RobotOfTeam& robot = team_.robots()[i];
         std::string path;  // "": it has not begun
         if (search.begin_of(finding.run, i)) {
-          path = stem() + '.' + finding.name + '.' + robot.label + ".jsonl";
+          path = file_stem(stem() + '.' + finding.name + '.' + robot.label) + ".jsonl";
           if (options_.out != ".") path = (std::filesystem::path(options_.out) / path).string();
           files.push_back(path);
         }
@@ -149,6 +146,14 @@ class TeamVerification {
       lines.push_back(
           {team_.robots()[i].label, text.empty() ? not_yet("never ends") : text + so_far});
     }
+    for (std::size_t i = 0; i < team_.robots().size(); ++i) {
+      const auto& properties = team_.robots()[i].runnable.properties;
+      for (std::size_t it = 0; it < properties.size(); ++it) {
+        lines.push_back(
+            {fmt::format("property '{}' of {}", properties[it].name(), team_.robots()[i].label),
+             verdict_of(i, it)});
+      }
+    }
     lines.push_back({"all may succeed", found_.may_all_succeed ? "yes" : not_yet("NO")});
     lines.push_back({"can always end", !must_end_               ? "not asked: <tree ends=\"no\"/>"
                                        : !found_.can_always_end ? "NO"
@@ -161,10 +166,20 @@ class TeamVerification {
     return lines;
   }
 
-  std::string has(std::string_view finding) const {
-    const bool is_found = std::ranges::any_of(
-        found_.findings, [&](const TeamFinding& it) { return it.name.starts_with(finding); });
-    return is_found ? "YES" : "never";
+  bool is_found(std::string_view finding) const {
+    return std::ranges::any_of(found_.findings,
+                               [&](const TeamFinding& it) { return it.name.starts_with(finding); });
+  }
+  std::string has(std::string_view finding) const { return is_found(finding) ? "YES" : "never"; }
+
+  // Where each run can end, each fair one does: what is still owed then was looked at.
+  std::string verdict_of(std::size_t robot, std::size_t property) const {
+    const std::string& name = team_.robots()[robot].runnable.properties[property].name();
+    if (is_found(fmt::format("property/{}.{}", name, team_.robots()[robot].label))) return "NO";
+    if (!found_.is_complete()) return "not known";
+    const bool waits = found_.owes[robot][property];
+    return waits && !(must_end_ && found_.can_always_end) ? "not known: a run may be endless"
+                                                          : "holds";
   }
 
   std::vector<std::string> assumed() const {
