@@ -66,6 +66,7 @@ bool keep(lockstep_run& run, KeepOptions options, const lockstep_keep_options& g
   auto kept =
       KeptRun::open(std::move(options), identity_of(run, given), run.program->runnable.tree);
   if (!kept) return refuse(kept.error().problem);
+  (*kept)->set_properties(run.properties.checks());
   const auto why_not = (*kept)->begin(run.run, [&run](const std::string& error) {
     run.leaf_log()("lockstep", LOCKSTEP_LOG_WARNING, "nothing is kept any more: " + error);
   });
@@ -74,6 +75,7 @@ bool keep(lockstep_run& run, KeepOptions options, const lockstep_keep_options& g
     return refuse(*why_not);
   }
   run.kept = std::move(*kept);
+  run.properties.go_on(run.kept->kept_properties());
   const LoopOptions::Before before = run.kept->before();
   run.first_tick = run.run.ticker().tick_number();
   run.last = before.time;

@@ -22,18 +22,35 @@ std::optional<Problem> RunProperties::add(std::string_view text) {
 
 void RunProperties::add(std::span<const Property> properties) {
   properties_.insert(properties_.end(), properties.begin(), properties.end());
-  begin_again();
+  make();
 }
 
 void RunProperties::begin_again() {
+  kept_.clear();
+  make();
+}
+
+void RunProperties::go_on(const KeptProperties& kept) {
+  kept_ = kept;
+  make();
+}
+
+void RunProperties::make() {
   checks_.emplace(properties_);
-  steps_.emplace(*checks_);
+  if (!empty()) steps_.emplace(*checks_);
   is_over_ = false;
   violations_.clear();
+  if (kept_.empty()) return;
+  checks_->go_on(kept_);
+  for (std::size_t i = 0; i < properties_.size(); ++i) {
+    if (checks_->verdict(i) != PropertyVerdict::Violated) continue;
+    violations_.push_back(fmt::format("{}: violated in tick {}", properties_[i].name(),
+                                      checks_->decided(i).value_or(0)));
+  }
 }
 
 void RunProperties::after_tick(const Moment& moment, const TickReport& report) {
-  if (is_over_) return;
+  if (is_over_ || !steps_) return;
   for (const std::size_t i : steps_->after_tick(moment)) {
     violations_.push_back(fmt::format("{}: violated in tick {}, at {:.3f} s",
                                       checks_->all()[i].name(), report.tick,

@@ -18,7 +18,7 @@ namespace lockstep::host::embedding {
 class RunProperties final : public Observer {
  public:
   // The tree must outlive this.
-  explicit RunProperties(const Tree& tree) : tree_(tree) {}
+  explicit RunProperties(const Tree& tree) : tree_(tree) { begin_again(); }
 
   // Before the first tick. What is wrong with the text, or nothing.
   std::optional<Problem> add(std::string_view text);
@@ -26,6 +26,9 @@ class RunProperties final : public Observer {
   bool empty() const { return properties_.empty(); }
   // The run is as new.
   void begin_again();
+  // Before the first tick: goes on where those of a run that was cut were.
+  void go_on(const KeptProperties& kept);
+  PropertyChecks& checks() { return *checks_; }
 
   // A text for each property that is violated, in the order in which that was found.
   std::span<const std::string> violations() const { return violations_; }
@@ -35,12 +38,14 @@ class RunProperties final : public Observer {
   void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
+  void make();
   void end(RunIsOver how, std::uint64_t ticks);
 
   const Tree& tree_;
   std::vector<Property> properties_;
   std::optional<PropertyChecks> checks_;
   std::optional<PropertySteps> steps_;
+  KeptProperties kept_;  // before a cut; empty: there was none
   bool is_over_ = false;
   std::vector<std::string> violations_;
 };

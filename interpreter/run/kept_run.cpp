@@ -139,10 +139,12 @@ std::optional<Problem> KeptRun::begin(Run& run,
   if (from_) go_on(run);
   if (from_ && team_ != nullptr && !team_->resume_rounds(from_->rounds))
     return Problem{"the checkpoint has no rounds of these teams"};
+  if (from_ && properties_ != nullptr) fresh_properties_ = properties_->go_on(from_->properties);
   writer_.emplace(std::move(file_), CheckpointOptions{.sync = options_.sync,
                                                       .period = run.period(),
                                                       .real_time = options_.real_time,
                                                       .team = team_,
+                                                      .properties = properties_,
                                                       .on_error = std::move(on_error)});
   const InEngine scope(run.blackboard().lock.get());
   if (writer_->begin(run.ticker(), facts_, before().ticks, from_ ? from_->resumes + 1 : 0)) {

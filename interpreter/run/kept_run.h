@@ -48,6 +48,8 @@ class KeptRun {
 
   // Before `begin`: the teams of the robot. It must outlive this.
   void set_team(TeamRun& team) { team_ = &team; }
+  // Likewise, those that are checked.
+  void set_properties(PropertyChecks& properties) { properties_ = &properties; }
   // Before the first tick of a new run: as it was at the cut, if it goes on. Returns once the file
   // has it, or why it cannot. The file stays as it was where a leaf could not be created.
   std::optional<Problem> begin(Run& run, std::function<void(const std::string& error)> on_error);
@@ -71,6 +73,10 @@ class KeptRun {
   const std::string& resumed() const { return resumed_; }
   // Those that ran at the cut, and what they do.
   const std::vector<CutLeaf>& cut_leaves() const { return cut_; }
+  // Of the run before the cut; empty: there was none, or it had none.
+  KeptProperties kept_properties() const { return from_ ? from_->properties : KeptProperties(); }
+  // The names of the properties that were not checked before the cut.
+  const std::vector<std::string>& fresh_properties() const { return fresh_properties_; }
   // Why nothing is kept any more, and since when; "": all is.
   std::string error() const;
 
@@ -82,7 +88,9 @@ class KeptRun {
 
   const KeepOptions options_;
   const Tree& tree_;
-  TeamRun* team_ = nullptr;  // null: the robot is in none
+  TeamRun* team_ = nullptr;               // null: the robot is in none
+  PropertyChecks* properties_ = nullptr;  // null: none is checked
+  std::vector<std::string> fresh_properties_;
   CheckpointFacts facts_;
   std::unique_ptr<CheckpointFile> file_;  // until the writer has it
   std::optional<Checkpoint> from_;        // what the run goes on from

@@ -317,6 +317,32 @@ TEST_CASE("a recording of a run that was cut is one, with the ticks of the run w
   }
 }
 
+TEST_CASE("a property has the verdict of the whole run, whatever is cut") {
+  CutRun run(
+      ours("<Sequence memory='true'><Step name='a' who='a' ticks='3'/>"
+           "<Step name='b' who='b' ticks='6'/></Sequence>",
+           "<property name='in_tree'>after a.success never b.ticked</property>"));
+  const auto watch = [](std::vector<std::string> more) {
+    more.insert(more.end(), {"--property", "order: b.running only after a.success", "--property",
+                             "pays: a.running leads to b.success"});
+    return more;
+  };
+  const std::vector<std::string> verdicts{"in_tree: violated in tick ", "order: holds in tick",
+                                          "pays: holds"};
+  for (const int tick : {1, 5}) {
+    run.forget();
+    const Outcome killed = run.cut(tick, watch({}));
+    INFO(killed.err);
+    REQUIRE(killed.code == 128 + SIGKILL);
+    const Outcome outcome = run.resume(watch({"--property", "fresh: never b.failure"}));
+    INFO(outcome.out << outcome.err);
+    for (const std::string& it : verdicts) CHECK(holds(outcome.out, "property   " + it));
+    CHECK(holds(outcome.err + outcome.out,
+                "the property 'fresh' was not checked before the cut: it begins here"));
+    CHECK_FALSE(holds(outcome.err + outcome.out, "the property 'order' was not"));
+  }
+}
+
 TEST_CASE("a resumed run leaves the recording of the run before it, and a new run begins another") {
   CutRun run(ours("<Step who='a' ticks='9'/>"));
   const std::string recording = run.directory().path("run.jsonl");

@@ -243,6 +243,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   }
 
   bool begin_to_keep(Run& run) {
+    if (properties_) kept_->set_properties(properties_->checks());
     const auto why_not = kept_->begin(run, [this](const std::string& error) {
       view_.print("error: nothing is kept any more: " + error);
     });
@@ -256,6 +257,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       view_.continue_with(kept_->before().ticks, kept_->before().time);
     }
     if (!kept_->resumed().empty()) tell(resumed());
+    for (const std::string& it : kept_->fresh_properties())
+      tell(fmt::format("the property '{}' was not checked before the cut: it begins here", it));
     return true;
   }
 

@@ -26,6 +26,7 @@ class PropertyObserver final : public Observer {
 
   bool is_violated() const { return checks_.any(PropertyVerdict::Violated); }
   void add_to(Summary& summary) const;
+  PropertyChecks& checks() { return checks_; }
 
  private:
   PropertyChecks checks_;

@@ -1,6 +1,7 @@
 #include "language/property/property_checks.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace lockstep::host {
@@ -64,6 +65,49 @@ std::span<const std::size_t> PropertyChecks::end(RunIsOver how) {
 
 void PropertyChecks::give_up() {
   has_given_up_ = true;
+}
+
+// A head, whether each comparison holds, and the state of the monitor.
+void PropertyChecks::keep(KeptProperties& into) const {
+  into.resize(properties_.size());
+  for (std::size_t i = 0; i < properties_.size(); ++i) {
+    const Checked& it = checked_[i];
+    KeptHead head{};
+    std::memset(&head, 0, sizeof head);  // what is kept has no padding of chance
+    head.verdict = it.verdict;
+    head.is_decided = it.decided.has_value();
+    head.decided = it.decided.value_or(0);
+    auto& [text, bytes] = into[i];
+    text.assign(properties_[i].text());
+    bytes.assign(reinterpret_cast<const char*>(&head), sizeof head);
+    const std::size_t count = properties_[i].comparisons().size();
+    bytes.append(reinterpret_cast<const char*>(compared_.get() + it.first_comparison), count);
+    bytes.append(reinterpret_cast<const char*>(states_.data() + it.first_byte), state_size(i));
+  }
+}
+
+std::vector<std::string> PropertyChecks::go_on(const KeptProperties& kept) {
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < properties_.size(); ++i) {
+    const auto found =
+        std::ranges::find(kept, properties_[i].text(), [](const auto& it) { return it.first; });
+    const std::size_t count = properties_[i].comparisons().size();
+    if (found == kept.end() || found->second.size() != sizeof(KeptHead) + count + state_size(i)) {
+      missing.push_back(properties_[i].name());
+      continue;
+    }
+    const char* from = found->second.data();
+    KeptHead head{};
+    std::memcpy(&head, from, sizeof head);
+    from += sizeof head;
+    Checked& it = checked_[i];
+    it.verdict = head.verdict;
+    if (head.is_decided) it.decided = head.decided;
+    for (std::size_t place = 0; place < count; ++place)
+      compared_[it.first_comparison + place] = *from++ != 0;
+    std::memcpy(states_.data() + it.first_byte, from, state_size(i));
+  }
+  return missing;
 }
 
 bool PropertyChecks::any(PropertyVerdict verdict) const {

@@ -7,11 +7,17 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "language/property/property.h"
 
 namespace lockstep::host {
+
+// Between two ticks, of each property its text, and what it keeps as bytes.
+using KeptProperties = std::vector<std::pair<std::string, std::string>>;
 
 // How a run has ended, as far as debts are concerned.
 enum class RunIsOver : bool {
@@ -54,12 +60,25 @@ class PropertyChecks {
   }
   bool any(PropertyVerdict verdict) const;
 
+  // Does not allocate where `into` is what it made of the tick before.
+  void keep(KeptProperties& into) const;
+  // Before the first step: goes on where these were kept. Of those that were not, the names: what
+  // they say is of the ticks from now on.
+  std::vector<std::string> go_on(const KeptProperties& kept);
+
  private:
   struct Checked {
     std::size_t first_node = 0, first_comparison = 0, first_byte = 0;
     PropertyVerdict verdict = PropertyVerdict::Open;
     std::optional<std::uint64_t> decided = {};
   };
+
+  struct KeptHead {
+    PropertyVerdict verdict;
+    bool is_decided;
+    std::uint64_t decided;
+  };
+  std::size_t state_size(std::size_t property) const { return properties_[property].state_size(); }
 
   std::vector<Property> properties_;
   std::vector<Checked> checked_;

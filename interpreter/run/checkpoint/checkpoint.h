@@ -10,6 +10,7 @@
 
 #include "base/core/clock.h"
 #include "base/core/problem.h"
+#include "language/property/property_checks.h"
 
 namespace lockstep::host {
 
@@ -35,6 +36,7 @@ struct Checkpoint {
   std::string boot;           // boot_id()
   std::string note;
   std::vector<std::uint32_t> rounds;  // of a robot in teams: TeamRun::keep_rounds
+  KeptProperties properties;          // that were checked
   std::string run;                    // append_bytes()
 };
 

@@ -17,7 +17,7 @@ namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kMagic = "lockstep checkpoint\n";
-constexpr std::uint32_t kVersion1 = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kBlock = 4096;
 // Nothing larger is read or written.
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 30;
@@ -27,7 +27,7 @@ std::string reason_text(int reason) {
 }
 
 struct FileHead {
-  std::uint32_t version = kVersion1;
+  std::uint32_t version = kVersion;
   std::uint64_t facts = 0, first = 0, room = 0;  // sizes and the place of the first slot
   std::uint32_t facts_sum = 0;
 };
@@ -140,7 +140,7 @@ bool read_head(std::string_view file, FileHead& head) {
   if (sum_at(file, kFileHead - 4) != crc32c(file.substr(0, kFileHead - 4))) return false;
   ByteReader reader(file.substr(kMagic.size(), kFileHead - kMagic.size() - 4));
   reader(head);
-  return head.version == kVersion1 && head.facts <= file.size() - kFileHead &&
+  return head.version == kVersion && head.facts <= file.size() - kFileHead &&
          head.first <= file.size() && head.room <= file.size();
 }
 

@@ -103,6 +103,7 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   head_.time = ticker.now();
   head_.written = wall_time();
   if (options_.team != nullptr) options_.team->keep_rounds(head_.rounds);
+  if (options_.properties != nullptr) options_.properties->keep(head_.properties);
   snapshot.bytes.clear();
   append_head(head_, snapshot.bytes);
   snapshot.lasting = snapshot.bytes.size();

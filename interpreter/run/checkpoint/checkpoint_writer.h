@@ -26,7 +26,8 @@ struct CheckpointOptions {
   Nanoseconds sync = std::chrono::milliseconds(100);  // at most so often
   Nanoseconds period{0};                              // of ticks
   bool real_time = true;
-  const TeamRun* team = nullptr;  // must outlive this; null: the robot is in none
+  const TeamRun* team = nullptr;               // must outlive this; null: the robot is in none
+  const PropertyChecks* properties = nullptr;  // likewise; null: none is checked
   // Once, on the tick thread: nothing is kept any more.
   std::function<void(const std::string& error)> on_error = {};
 };
