@@ -62,6 +62,12 @@ GrowingFile::GrowingFile(std::string path, const FileForm& form, Patience& patie
   }
 }
 
+// A process that is just being started has a copy of the file until its program begins: closed
+// alone, the lock would last so long.
+GrowingFile::~GrowingFile() {
+  if (file_ >= 0) flock(file_, LOCK_UN);
+}
+
 void GrowingFile::add(std::string_view text, Failure failure, std::uint64_t& written) {
   if (failed_ || text.empty()) return;
   if (!frames_ && !encoder_) return add_plain(text, failure, written);

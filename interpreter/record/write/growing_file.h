@@ -38,6 +38,9 @@ class GrowingFile {
 
   // On failure error() has the reason.
   GrowingFile(std::string path, const FileForm& form, Patience& patience);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
 
   bool failed() const { return failed_; }
   // "" if there is no error, else "cannot write 'x': No space left on device".
