@@ -8,6 +8,7 @@
 #include "base/terminal/text_table.h"
 #include "engine/compile.h"
 #include "run/checkpoint/run_bytes.h"
+#include "team/team_run.h"
 
 namespace lockstep::host {
 namespace {
@@ -40,6 +41,9 @@ std::string cuts_text(const Definition& definition) {
     return fmt::format(
         "  nothing continues: the entry '{}' holds objects, which no checkpoint has\n",
         printable(*entry));
+  }
+  if (const auto why_not = why_not_kept(tree)) {
+    return fmt::format("  nothing continues: {}, {}\n", why_not->message, why_not->hint);
   }
   std::vector<TableRow> rows;
   NodeIndex end = 0;  // what is below a node of a plugin starts with it

@@ -344,6 +344,13 @@ std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period) {
   return teams;
 }
 
+std::optional<Problem> why_not_kept(const Tree& tree) {
+  const auto asks = [](const LeafNode& it) { return is_asking(it); };
+  if (std::ranges::none_of(tree.leaves, asks)) return std::nullopt;
+  return Problem{"a run that shares resources with other robots cannot be kept",
+                 "another robot may own them when it continues"};
+}
+
 bool stands_for_robots(const NodeType& type) {
   return is_robot(type) || is_asking(type);
 }

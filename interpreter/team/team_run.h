@@ -23,6 +23,8 @@ struct Tree;
 
 // The teams that the tree declares, in the order of their nodes; `period` is that of its ticks.
 std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period);
+// Why a run of the tree cannot be kept in a checkpoint: it shares resources with other robots.
+std::optional<Problem> why_not_kept(const Tree& tree);
 
 // The plugin with the leaves that stand for other robots: TeamMember for one, TeamResources for all
 // that share a pool. It is in a project that has a team.

@@ -73,6 +73,8 @@ TEST_CASE("a table of failures has its own formats") {
   const std::string tree = directory.file("grasp.xml", kGrasp);
   CHECK(run_lockstep({"verify", tree, "--mock", "--format", "csv"}).code == 2);
   CHECK(run_lockstep({"verify", tree, "--mock", "--fmea", "--format", "junit"}).code == 2);
+  for (const char* const other : {"--save=s.test.xml", "--only=results"})
+    CHECK(run_lockstep({"verify", tree, "--mock", "--fmea", other}).code == 2);
   CHECK(run_lockstep({"verify", tree, "--mock", "--pairs"}).code == 2);
   const std::string table = run_lockstep({"verify", tree, "--mock", "--fmea"}).out;
   CHECK(table.starts_with("| Leaf | Failure | Tree |"));

@@ -93,14 +93,18 @@ TEST_CASE("lockstep team: a member that no file plays is named") {
   CHECK_FALSE(contains(team({}).err, "no file is"));
 }
 
-TEST_CASE("run: a run that shares resources with other robots is not kept") {
+TEST_CASE(
+    "a run that shares resources with other robots is not kept: run, check and verify say so") {
   const TemporaryDirectory directory;
-  const Outcome kept =
-      run_lockstep({"run", LOCKSTEP_SOURCE_DIR "/trees/construction/narrow_road.xml",
-                    "--checkpoint", directory.path("c")});
+  const std::string road = LOCKSTEP_SOURCE_DIR "/trees/construction/narrow_road.xml";
+  const std::string why = "a run that shares resources with other robots cannot be kept";
+  const Outcome kept = run_lockstep({"run", road, "--checkpoint", directory.path("c")});
   CHECK(kept.code == 2);
-  CHECK(contains(kept.err,
-                 "--checkpoint: a run that shares resources with other robots cannot be kept"));
+  CHECK(contains(kept.err, "--checkpoint: " + why));
+  CHECK(contains(run_lockstep({"check", road, "--checkpoint"}).out, "nothing continues: " + why));
+  const Outcome proof = run_lockstep({"verify", road, "--cuts"});
+  CHECK(proof.code == 2);
+  CHECK(contains(proof.err, "--cuts: " + why));
 }
 
 TEST_CASE("check reports teams that cannot be") {

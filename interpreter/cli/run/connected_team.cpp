@@ -23,13 +23,8 @@ Result<std::unique_ptr<ConnectedTeam>> ConnectedTeam::open(
     return tl::unexpected(Problem{"--clock virtual: the other robots of the team have another time",
                                   "`lockstep team` simulates all of them"});
   }
-  const bool shares =
-      std::ranges::any_of(teams, [](const TeamDeclaration& it) { return !it.resources.empty(); });
-  if (!options.keep.file.empty() && shares) {
-    return tl::unexpected(
-        Problem{"--checkpoint: a run that shares resources with other robots cannot be kept",
-                "another robot may own them when it continues"});
-  }
+  if (const auto why_not = why_not_kept(tree); why_not && !options.keep.file.empty())
+    return tl::unexpected(Problem{"--checkpoint: " + why_not->message, why_not->hint});
   std::unique_ptr<ConnectedTeam> team(new ConnectedTeam);
   TeamNetworkOptions network = options.team;
   network.tell = std::move(tell);

@@ -32,6 +32,7 @@
 #include "language/document/file.h"
 #include "language/document/reporter.h"
 #include "run/stop_signals.h"
+#include "team/team_run.h"
 #include "tree/pace.h"
 #include "verify/assumptions.h"
 #include "verify/chance_runs.h"
@@ -177,6 +178,10 @@ class VerifyCommand {
     });
     if (!properties) return kExitUsage;
     properties_ = std::move(*properties);
+    if (const auto why_not = why_not_kept(runnable.tree); why_not && options_.cuts > 0) {
+      print_error("--cuts: " + why_not->message, why_not->hint);
+      return kExitUsage;
+    }
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const Observed observed = observed_by(runnable.tree, properties_, problems);
     if (!options_.save_model.empty() && !save_model(runnable.tree, observed.entries))
@@ -478,8 +483,9 @@ int verify(const VerifyOptions& options) {
     print_error("--probability prints probabilities: as text or json, without --fmea and a ticket");
     return kExitUsage;
   }
-  if (options.probability && (!options.save.empty() || !options.only.empty())) {
-    print_error("--probability: there are no findings to save, and it answers all questions",
+  if ((options.probability || options.fmea) && (!options.save.empty() || !options.only.empty())) {
+    print_error(fmt::format("{}: there are no findings to save, and it answers all questions",
+                            options.fmea ? "--fmea" : "--probability"),
                 "leave out --save and --only");
     return kExitUsage;
   }
