@@ -245,7 +245,7 @@ constexpr Field kTickFields[] = {
     {"heard", "HeardWord[]", kMaybe,
      "only of a robot in a [team](team.md): {} for each node that stands for another robot and has "
      "heard a new word since the line before. That robot sent it after `word` ticks of the run "
-     "that its header calls `run`"},
+     "that its header calls `run`. `word` 0, after a cut: none has been heard since"},
     {"succeeded", "Index[]", kMaybe,
      "only if there are any: the synchronized nodes, the children of parallels and the children of "
      "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "

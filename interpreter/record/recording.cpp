@@ -30,6 +30,10 @@ Nanoseconds period_of(const RecordingHeader& header) {
 void take_heard(std::span<const RecordedHeard> words, Nanoseconds time, std::vector<Heard>& heard) {
   for (const RecordedHeard& word : words) {
     auto it = std::ranges::find(heard, word.node, &Heard::node);
+    if (word.word == 0) {
+      if (it != heard.end()) heard.erase(it);
+      continue;
+    }
     if (it == heard.end()) it = heard.insert(it, {.node = word.node});
     if (it->run == word.run && it->word == word.word) continue;
     *it = {.node = word.node, .run = word.run, .word = word.word, .time = time};

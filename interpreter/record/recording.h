@@ -54,7 +54,7 @@ struct RecordedReason {
 struct RecordedHeard {
   NodeIndex node = 0;
   std::uint32_t run = 0;
-  std::uint64_t word = 0;
+  std::uint64_t word = 0;  // 0: the process is new, and has heard none yet
 };
 
 inline bool operator==(const Heard& one, const Heard& other) {

@@ -108,6 +108,26 @@ test("a cut of the process is before the first line of the run that continued", 
   assert.deepEqual(runOf({ tick: 0, time_s: 0 }).cuts, []);
 });
 
+test("the first line of a run that continues has the whole state: what it leaves out is as before the first tick", () => {
+  const [node, other] = [0, 2], run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, nodes: HEADER.nodes.map((it) => ({ ...it, pace: true })) }));
+  for (const line of [
+    { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0.25, 1), running(2, 0.5)], limits: [[node, 0.5]],
+      rounds: [[node, 2, 3]], factors: [[1, 0.2]], reasons: [[1, "it is cold"]], heard: [[other, 7, 3]], entries: [[0, "open"]] },
+    { continued: { ticks: 1 } }, { ...HEADER, first_tick: 1, resumed_after_s: 35 },
+    { tick: 1, time_s: 0.1, nodes: [running(0, 0)], entries: [[0, "open"]], whole: [[0, "open"]] },
+    { tick: 2, time_s: 0.2, nodes: [[0, "success", 1, 1, 0]], limits: [[node, 1]] }]) run.feed(JSON.stringify(line));
+  const at = (line) => {
+    const moment = new model.Moment(run, line);
+    return [[...moment.status], moment.held[1], moment.progress[2], moment.limit(node), run.rounds.get(node).number.at(line),
+      run.factors.get(1).at(line), model.valueAt(run.reasons.get(1), line), run.heard.get(other).at(line)];
+  };
+  assert.deepEqual(at(0), [[1, 1, 1], 1, 0.5, 0.5, 2, 0.2, "it is cold", 0]);
+  assert.deepEqual(at(1), [[1, 0, 0], 0, 0, 0, 0, 1, "", undefined]);
+  assert.equal(at(2)[3], 1);
+  assert.deepEqual(run.events.all.filter(({ line }) => line === 1).map(({ kind, node: of }) => [kind, of]), [["halt", 1], ["halt", 2]]);
+});
+
 test("a line with the whole state makes idle what it does not name, and changes nothing else", () => {
   const run = runOf(
     { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0.25), running(2, 0)] },

@@ -29,7 +29,7 @@ RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limi
   states_.resize(header_.nodes.size());
   next_tick_ = header_.first_tick;
   begins_here_ = has_skipped_ = header_.first_tick > 0;
-  if (header_.resumed_after) resumes_.push_back({next_tick_, *header_.resumed_after});
+  if (header_.resumed_after) resumes_.push_back({next_tick_, *header_.resumed_after, header_.run});
   if (is_cut_) fail("the header is cut");
 }
 
@@ -52,7 +52,7 @@ bool RecordingReader::go_to(const Position& position, std::span<const RecordedSt
   last_time_ = position.time;
   // A tick is neither behind the closing line nor behind an error.
   end_.reset();
-  is_part_over_ = false;
+  is_part_over_ = begins_here_ = is_after_cut_ = false;
   error_.clear();
   is_cut_ = is_read_ = false;
   return true;
@@ -71,13 +71,23 @@ std::optional<RecordedTick> RecordingReader::read_further() {
   // Ticks before it may be lost.
   const bool is_gap = std::holds_alternative<RecordedGap>(line);
   if (begins_here_ && !is_gap) {
-    begins_here_ = false;
     // A run that continues may be cut again before its first tick.
     if (tick == nullptr && !resumes_.empty()) return std::nullopt;
+    begins_here_ = false;
     if (tick == nullptr || !tick->whole) throw JsonError("'whole' is missing");
-    tick->entries = *tick->whole;
+    begin_with_whole(*tick);
   }
-  return tick == nullptr ? std::nullopt : std::optional(*tick);
+  if (tick == nullptr) return std::nullopt;
+  since_cut_.take(*tick);
+  return *tick;
+}
+
+void RecordingReader::begin_with_whole(RecordedTick& tick) {
+  tick.entries = *tick.whole;
+  if (!std::exchange(is_after_cut_, false)) return;
+  const auto it = changed_in_cuts_.try_emplace(tick.tick, since_cut_.changed_entries(tick)).first;
+  tick.entries = it->second;
+  since_cut_.complete(tick);
 }
 
 void RecordingReader::take(const RecordedTick& tick) {
@@ -119,11 +129,13 @@ void RecordingReader::begin_part() {
                                 next_tick_));
   }
   if (!is_resumed) return;
-  begins_here_ = has_skipped_ = true;  // its last line counts its own lost ticks
+  begins_here_ = is_after_cut_ = has_skipped_ = true;  // its last line counts its own lost ticks
+  since_cut_.cut(states_);
+  if (next_tick_ < read_until_) return;  // it has gone back
   // A gap directly before a cut is not the disk's: the process ended before it was written.
   lost_in_cuts_ += last_gap_;
   lost_ -= std::exchange(last_gap_, 0);
-  resumes_.push_back({next_tick_, *header.resumed_after});
+  resumes_.push_back({next_tick_, *header.resumed_after, header.run});
 }
 
 void RecordingReader::take(RecordedEnd end) {
@@ -142,6 +154,7 @@ void RecordingReader::pass_ticks(std::uint64_t first, std::uint64_t count) {
                         : fmt::format("tick {} comes after tick {}", first, next_tick_ - 1));
   }
   next_tick_ += count;
+  read_until_ = std::max(read_until_, next_tick_);
 }
 
 std::string RecordingReader::gaps() const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <istream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "record/read/line_reader.h"
 #include "record/read/recording_parts.h"
+#include "record/read/since_cut.h"
 #include "record/recording.h"
 
 namespace lockstep::host {
@@ -73,7 +75,8 @@ class RecordingReader {
   // After which cuts the run continued, of the lines read so far.
   struct Resume {
     std::uint64_t first_tick = 0;
-    double after = 0;  // seconds since the state was saved
+    double after = 0;       // seconds since the state was saved
+    std::uint64_t run = 0;  // RecordingHeader::run, of the process that continued
   };
   const std::vector<Resume>& resumes() const { return resumes_; }
   RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
@@ -95,6 +98,7 @@ class RecordingReader {
   void take(const RecordedGap& gap);
   void take(const RecordedPartEnd& end);
   void begin_part();
+  void begin_with_whole(RecordedTick& tick);
   void take(RecordedEnd end);
   void pass_ticks(std::uint64_t first, std::uint64_t count);
   std::optional<TextOfFiles::Place> place() const;
@@ -119,7 +123,12 @@ class RecordingReader {
   std::uint64_t lost_ = 0;
   std::uint64_t lost_in_cuts_ = 0;  // ticks before a cut that did not get to the disk
   std::vector<Resume> resumes_;
-  std::uint64_t last_gap_ = 0;  // ticks, if it was in the last line
+  SinceCut since_cut_;
+  // By the first tick after a cut. A reader that goes back does not know the entries before it.
+  std::map<std::uint64_t, std::vector<RecordedEntry>> changed_in_cuts_;
+  bool is_after_cut_ = false;     // the next line is the first one of a run that continues
+  std::uint64_t read_until_ = 0;  // the highest next_tick_
+  std::uint64_t last_gap_ = 0;    // ticks, if it was in the last line
 };
 
 }  // namespace lockstep::host

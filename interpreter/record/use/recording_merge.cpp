@@ -395,7 +395,9 @@ class TeamMerge {
           std::ranges::find(end.reasons, node, &ReasonChange::node) != end.reasons.end();
       if (!text.empty() || is_new) whole.reasons.push_back({.node = node, .text = text});
     }
-    for (const auto& [node, heard] : state_.heard) whole.heard.push_back(heard);
+    for (const auto& [node, heard] : state_.heard) {
+      if (heard.word != 0) whole.heard.push_back(heard);
+    }
     for (std::uint32_t i = 0; i < state_.entries.size(); ++i) {
       const auto& it = state_.entries[i];
       if (it) whole.entries.push_back({.entry = i, .text = *it ? &**it : nullptr});

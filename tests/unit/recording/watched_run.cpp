@@ -14,6 +14,7 @@ RunEnd WatchedRun::watch(std::initializer_list<Observer*> who, std::uint64_t max
   observers.run_started(ticker, start);
   RunEnd end;
   end.reason = StopReason::MaxTicks;
+  end.ticks = end.first_tick = start.first_tick;
   while (end.ticks < max_ticks && end.reason == StopReason::MaxTicks) {
     const std::uint64_t tick = end.ticks++;
     const Nanoseconds now = start.period * static_cast<std::int64_t>(tick);

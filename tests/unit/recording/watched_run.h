@@ -17,7 +17,7 @@ struct WatchedRun {
   WatchedRun(std::string_view tree, std::string_view leaves) : run(tree, leaves) {}
   WatchedRun(Tree tree, std::string_view leaves) : run(std::move(tree), leaves) {}
 
-  // Ticks until the root completes or a leaf faults, at most `max_ticks` times.
+  // Ticks until the root completes or a leaf faults, or the run has `max_ticks` ticks.
   RunEnd watch(std::initializer_list<Observer*> who, std::uint64_t max_ticks = 1000);
 
   ScriptedRun run;

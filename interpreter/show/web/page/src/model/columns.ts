@@ -81,6 +81,10 @@ export class NumberColumn {
     this.lines[this.length] = line;
     this.values[this.length++] = value;
   }
+  // A line with the whole state may have the same value again.
+  change(line: number, value: number) {
+    if (this.length === 0 || this.values[this.length - 1] !== value) this.push(line, value);
+  }
   placeAt(line: number): number {
     return placeOf(this.lines, this.length, line);
   }
@@ -90,6 +94,8 @@ export class NumberColumn {
   }
 }
 
+const NOT_HEARD = -1;
+
 // The words that another robot was heard to say: the lines from which on it was heard in nearly every tick, and the last of each.
 export class HeardColumn {
   private readonly spans = new NumberColumn(); // the first line of each, and the last one
@@ -97,18 +103,19 @@ export class HeardColumn {
   private run = 0;
   private word = 0;
 
-  // `pause`: in seconds, after which another span begins.
+  // `pause`: in seconds, after which another span begins. Word 0: the process is new, and has heard none yet.
   push(line: number, time: number, run: number, word: number, pause: number) {
     if (run === this.run && word === this.word) return; // a line with the whole state
     const { spans } = this;
-    if (time - this.time <= pause) spans.values[spans.length - 1] = line;
+    if (word === 0) spans.push(line, NOT_HEARD);
+    else if (time - this.time <= pause) spans.values[spans.length - 1] = line;
     else spans.push(line, line);
-    Object.assign(this, { time, run, word });
+    Object.assign(this, { time: word === 0 ? -Infinity : time, run, word });
   }
   // The last line, not after this one, that had a new word; undefined: none had.
   at(line: number): number | undefined {
     const last = this.spans.at(line);
-    return last === undefined ? undefined : Math.min(last, line);
+    return last === undefined || last === NOT_HEARD ? undefined : Math.min(last, line);
   }
 }
 

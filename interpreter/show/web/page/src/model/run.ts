@@ -101,27 +101,34 @@ export class Run {
     this.ticks.push(line.tick);
     this.times.push(line.time_s);
     this.events.lateness();
-    this.joins = (line.full === true || line.whole !== undefined) && this.lines === 1 && line.tick > 0;
+    const isWhole = line.full === true || line.whole !== undefined;
+    this.joins = isWhole && this.lines === 1 && line.tick > 0;
     const before = line.moments ? this.nodes.map(lastFlags) : null;
-    if (line.full) this.forgetOthers(line);
+    if (isWhole) this.forgetOthers(line);
     for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
       this.change(node, progress, flagsOf(status, ticked, held), before !== null);
     }
     if (before) this.takeMoments(line, before);
     this.events.holds(this.turned, (node) => lastFlags(this.nodes[node]), this.joins);
     this.turned = [];
-    for (const [node, limit] of line.limits ?? []) {
-      column(this.limits, node, () => new NumberColumn()).push(this.last, limit ?? Infinity);
+    const known = (columns: Map<number, unknown>) => (isWhole ? columns.keys() : []);
+    for (const [node, limit] of given(line.limits, known(this.limits), (node) => [node, 0])) {
+      column(this.limits, node, () => new NumberColumn()).change(this.last, limit ?? Infinity);
     }
-    for (const [node, number, of] of line.rounds ?? []) {
+    for (const [node, number, of] of given(line.rounds, known(this.rounds), (node) => [node, 0, 0])) {
       const round = column(this.rounds, node, () => ({ number: new NumberColumn(), of: new NumberColumn() }));
-      round.number.push(this.last, number);
-      round.of.push(this.last, of);
+      round.number.change(this.last, number);
+      round.of.change(this.last, of);
     }
     if (line.succeeded) this.ended.set(this.last, line.succeeded);
-    this.takeFactors(line);
-    this.takeReasons(line);
-    for (const [node, run, word] of line.heard ?? []) {
+    for (const [node, factor] of given(line.factors, known(this.factors), (node) => [node, 1])) {
+      column(this.factors, node, () => new NumberColumn()).change(this.last, factor);
+    }
+    for (const [node, value] of given(line.reasons, known(this.reasons), (node) => [node, ""])) {
+      const history = column(this.reasons, node, () => [] as EntryChange[]);
+      if (history.at(-1)?.value !== value) history.push({ line: this.last, value });
+    }
+    for (const [node, run, word] of given(line.heard, known(this.heard), (node) => [node, 0, 0])) {
       column(this.heard, node, () => new HeardColumn()).push(this.last, this.times[this.last], run, word, 2.5 * this.period);
     }
     for (const [node, message] of line.faults ?? []) {
@@ -140,23 +147,8 @@ export class Run {
   private forgetOthers(line: TickLine) {
     const named = new Set((line.nodes ?? []).map((node) => node[0]));
     this.nodes.forEach((node, index) => {
-      if (node.length === 0 || named.has(index)) return;
-      if (node.flags[node.length - 1] !== 0) this.change(index, 0, 0, line.moments !== undefined);
+      if (node.length > 0 && !named.has(index)) this.change(index, 0, 0, line.moments !== undefined);
     });
-  }
-
-  // A line with the whole state leaves out those that are 1.
-  private takeFactors(line: TickLine) {
-    const told = new Map(line.factors ?? []);
-    if (line.full) this.factors.forEach((_, node) => told.set(node, told.get(node) ?? 1));
-    for (const [node, factor] of told) column(this.factors, node, () => new NumberColumn()).push(this.last, factor);
-  }
-
-  // A line with the whole state leaves out those that are none.
-  private takeReasons(line: TickLine) {
-    const told = new Map(line.reasons ?? []);
-    if (line.full) this.reasons.forEach((_, node) => told.set(node, told.get(node) ?? ""));
-    for (const [node, value] of told) column(this.reasons, node, () => [] as EntryChange[]).push({ line: this.last, value });
   }
 
   // In such a tick nodes had several results. Each moment says how nodes were that differ from the one after it.
@@ -229,6 +221,12 @@ export class Run {
     const place = this.nodes[node].at(line);
     return place < 0 ? 0 : this.nodes[node].flags[place] & STATUS;
   }
+}
+
+// What a line gives of nodes. With the whole state, it leaves out the `known` ones that are as before the first tick.
+function given<Change extends [number, ...unknown[]]>(changes: Change[] = [], known: Iterable<number>, none: (node: number) => Change): Change[] {
+  const named = new Set(changes.map(([node]) => node));
+  return [...changes, ...[...known].filter((node) => !named.has(node)).map(none)];
 }
 
 function flagsOf(status: string, ticked: number, held: number): number {
