@@ -14,6 +14,7 @@
 #include "record/read/recording_parts.h"
 #include "record/read/recording_timeline.h"
 #include "record/use/recording_events.h"
+#include "record/use/recording_info.h"
 #include "record/write/recorder.h"
 #include "run/shape_of.h"
 #include "support/tree_text.h"
@@ -126,6 +127,16 @@ std::vector<std::string> events_in(std::istream& in) {
   return events;
 }
 
+std::vector<std::string> notes_in(std::istream& in) {
+  RecordingReader reader(in, "recording");
+  std::istringstream text(info_text(reader, false));
+  std::vector<std::string> notes;
+  for (std::string line; std::getline(text, line);) {
+    if (line.find("note: ") != line.npos) notes.push_back(line);
+  }
+  return notes;
+}
+
 // See above of limits.
 TimelineTick without_unknown(TimelineTick tick) {
   for (RecordedState& it : tick.nodes) it.limit = it.ticked ? it.limit : 0;
@@ -175,6 +186,8 @@ TEST_CASE("the recordings of a run that was cut, read as one, are as if it was n
     for (std::size_t i = 0; i < found.size(); ++i) REQUIRE(found[i] == expected[i]);
     NamedRecording with_events(uncut), with_same(cut);
     REQUIRE(events_in(with_same.text()) == events_in(with_events.text()));
+    NamedRecording with_notes(uncut), with_same_notes(cut);
+    REQUIRE(notes_in(with_same_notes.text()) == notes_in(with_notes.text()));
     NamedRecording there(uncut), and_here(cut);
     check_timelines(there.text(), and_here.text(), expected.size());
   }

@@ -24,6 +24,8 @@ class SynchronizedMeasure {
     falls_.join();
     step_length_.join();
   }
+  // The next tick follows, but leaves may have started again before it.
+  void cut() { step_length_.join(); }
   void after_tick(const SynchronizedTick& tick);
   void run_ended(Nanoseconds time);
 

@@ -109,8 +109,9 @@ std::string info_text(RecordingReader& reader, bool color) {
         reader.resumes().size() > std::exchange(resumes, reader.resumes().size());
     const bool follows = tick->tick == std::exchange(next, tick->tick + 1);
     ++ticks;
-    if (!follows || continues) {
-      for (MeasuredNode& node : nodes) node.measure.join();
+    for (MeasuredNode& node : nodes) {
+      if (!follows) node.measure.join();
+      if (continues) node.measure.cut();
     }
     faults += tick->faults.size();
     last = &moments.read(*tick);
