@@ -373,6 +373,30 @@ TEST_CASE("a resumed run leaves the recording of the run before it, and a new ru
   CHECK(holds(run_lockstep({"log", "info", recording}).out, "after 9 ticks"));
 }
 
+TEST_CASE(
+    "files of a process that were deleted are no lost ticks, and those before them are older") {
+  CutRun run(ours("<Step who='a' ticks='40'/>"));
+  const std::string recording = run.directory().path("run.jsonl");
+  const std::vector<std::string> options{"--record", recording,       "--record-rotate",
+                                         "0.4s",     "--record-keep", "2"};
+  REQUIRE(run.cut(12, options).code == 128 + SIGKILL);
+  auto resumed = options;
+  resumed.emplace_back("--resume");
+  REQUIRE(run.cut(17, resumed).code == 128 + SIGKILL);
+  const auto info = [&] { return run_lockstep({"log", "info", recording}); };
+  const Outcome whole = info();
+  CHECK(holds(whole.out, "resumed after "));
+  CHECK(holds(whole.out, "from tick 12 on"));
+  REQUIRE(run.resume(options).code == 0);
+  const Outcome kept = info();
+  INFO(kept.out << kept.err);
+  CHECK(kept.code == 0);
+  CHECK(kept.err.empty());
+  CHECK(holds(kept.out, "a part that begins with tick 49"));
+  CHECK_FALSE(holds(kept.out, "missing"));
+  CHECK_FALSE(holds(kept.out, "resumed after "));
+}
+
 TEST_CASE("log info counts no step over ticks that were lost with a cut") {
   CutRun run(
       ours("<ParallelRelative delta='0.9'><Move who='a' ticks='20'/><Move who='b' ticks='20'/>"

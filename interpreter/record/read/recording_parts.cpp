@@ -24,11 +24,21 @@ std::vector<std::string> own_files(const std::string& recording) {
   return parts_that_exist(recording);
 }
 
-std::uint64_t first_tick_of(const std::string& path) {
+struct Begin {
+  std::uint64_t tick = 0;
+  bool is_resumed = false;  // the first file of a process that continues
+};
+
+Begin begin_of(const std::string& path) {
   DecompressedFile file(path);
-  if (!file.is_open()) return 0;
+  if (!file.is_open()) return {};
   const RecordingReader reader(file.text(), path);
-  return reader.error().empty() ? reader.header().first_tick : 0;
+  if (!reader.error().empty()) return {};
+  return {reader.header().first_tick, reader.header().resumed_after.has_value()};
+}
+
+std::uint64_t first_tick_of(const std::string& path) {
+  return begin_of(path).tick;
 }
 
 struct BeforeCut {
@@ -59,11 +69,21 @@ RecordingParts::RecordingParts(const std::string& recording) : recording_(record
   for (const std::string& resumed : resumed_recordings(recording)) continue_with(resumed);
 }
 
-// What came after the state that the run continued from was lost with it, so the run did it again.
 void RecordingParts::continue_with(const std::string& resumed) {
   const std::vector<std::string> files = own_files(resumed);
-  const std::uint64_t tick = first_tick_of(files.front());
+  const auto [tick, is_first] = begin_of(files.front());
   if (tick == 0) return;  // it continues nothing: another recording of that name
+  if (is_first) {
+    end_before(tick);
+  } else {  // files before it were deleted, and those of the process before are older still
+    parts_.clear();
+  }
+  for (const std::string& path : files) parts_.push_back({path});
+  is_resumed_ = true;
+}
+
+// What came after the state that the run continued from was lost with it, so the run did it again.
+void RecordingParts::end_before(std::uint64_t tick) {
   while (parts_.size() > 1 &&
          (parts_.back().path.empty() || first_tick_of(parts_.back().path) >= tick))
     parts_.pop_back();
@@ -76,8 +96,6 @@ void RecordingParts::continue_with(const std::string& resumed) {
     lines += json_lines::part_end(tick);
     parts_.push_back({.path = "", .lines = lines, .size = lines.size()});
   }
-  for (const std::string& path : files) parts_.push_back({path});
-  is_resumed_ = true;
 }
 
 std::optional<RecordingParts::Place> RecordingParts::place_of(std::uint64_t byte) {

@@ -52,6 +52,7 @@ class RecordingParts final : public TextOfFiles {
   std::size_t read();
   std::uint64_t size_of(std::size_t part);
   void continue_with(const std::string& resumed);
+  void end_before(std::uint64_t tick);
 
   const std::string recording_;
   std::vector<Part> parts_;
