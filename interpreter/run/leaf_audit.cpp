@@ -98,6 +98,7 @@ AskedOfRun LeafAudit::asked() const {
 
 void LeafAudit::begin(const Moment& before) {
   calls_.begin(before);
+  next_ = 0;  // the tick after a cut does not follow what was before it
   before_.assign(before.activity.begin(), before.activity.end());
   for (std::uint32_t entry = 0; entry < entries_.size(); ++entry) {
     entries_[entry].writes = writes_of(before, entry);

@@ -397,6 +397,24 @@ TEST_CASE(
   CHECK_FALSE(holds(kept.out, "resumed after "));
 }
 
+TEST_CASE("log check --leaves blames no leaf for what a cut does") {
+  CutRun run(
+      ours("<Parallel><Step who='a' ticks='20'/><Move who='b' ticks='20'/>"
+           "<ParallelAbsolute barriers='0.3'><Step who='c' ticks='9'/><Step who='d' ticks='30'/>"
+           "</ParallelAbsolute></Parallel>"));
+  const std::string recording = run.directory().path("run.jsonl");
+  const std::string model =
+      run.directory().file("m.leaves.xml",
+                           "<leaves lockstep='1' rate='10'><leaf of='Step' result='success'/>"
+                           "<leaf of='Move' result='success'/></leaves>");
+  REQUIRE(run.cut(6, {"--record", recording}).code == 128 + SIGKILL);
+  REQUIRE(run.resume({"--record", recording}).code == 0);
+  const Outcome check = run_lockstep({"log", "check", recording, "--leaves", model, "--plugin-path",
+                                      LOCKSTEP_BINARY_DIR "/tests/cli"});
+  INFO(check.out << check.err);
+  CHECK(check.code == 0);
+}
+
 TEST_CASE("log info counts no step over ticks that were lost with a cut") {
   CutRun run(
       ours("<ParallelRelative delta='0.9'><Move who='a' ticks='20'/><Move who='b' ticks='20'/>"

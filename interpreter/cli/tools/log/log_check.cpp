@@ -102,9 +102,15 @@ int check_leaves(const LogCheckOptions& options) {
     RecordedMoments moments(header);
     std::vector<std::size_t> counts(header.nodes.size());
     std::string text;
+    const Moment* last = nullptr;
+    std::size_t cuts = reader.resumes().size();
     while (const auto tick = reader.next()) {
+      const bool is_after_cut =
+          reader.resumes().size() > std::exchange(cuts, reader.resumes().size());
+      if (is_after_cut && last != nullptr) audit.begin(*last);
       for (const RecordedFault& it : tick->faults) audit.note_fault(it.node);
-      for (const LeafBreach& it : audit.after_tick(moments.read(*tick), tick->set)) {
+      last = &moments.read(*tick);
+      for (const LeafBreach& it : audit.after_tick(*last, tick->set)) {
         if (counts[it.node]++ >= kMost) continue;
         text += fmt::format("{}: in tick {}: {}\n", printable(header.nodes[it.node].path),
                             tick->tick, it.message);
