@@ -1,6 +1,8 @@
 // `lockstep log events`: what happened in a run, a line each.
 #include <catch2/catch.hpp>
+#include <set>
 
+#include "record/use/recording_events.h"
 #include "support/paths.h"
 #include "support/program.h"
 
@@ -128,6 +130,31 @@ TEST_CASE("log events: each hold has its release, also where the node above is h
         "3,0.3,release,T/p/q/s,\n"
         "4,0.4,hold,T/p/q/s,\n"
         "5,0.5,release,T/p/q/s,\n");
+}
+
+TEST_CASE(
+    "log events: --event takes each event that docs/recording.md lists, and there are no others") {
+  const TemporaryDirectory directory;
+  events(directory);
+  std::set<std::string> listed;
+  const std::string page = read_file(LOCKSTEP_SOURCE_DIR "/docs/recording.md");
+  for (const std::string& line : lines(page.substr(page.find("| Event | When |")))) {
+    if (line.empty()) break;
+    const std::string cell = line.substr(0, line.find('|', 1));
+    for (auto at = cell.find('`'); at != cell.npos; at = cell.find('`', at + 1)) {
+      const auto end = cell.find('`', at + 1);
+      listed.insert(cell.substr(at + 1, end - at - 1));
+      at = end;
+    }
+  }
+  CHECK(listed == std::set<std::string>(kEventNames.begin(), kEventNames.end()));
+  for (const std::string& name : listed) {
+    const Outcome outcome =
+        run_lockstep({"log", "events", directory.path("run.jsonl.zst"), "--event", name});
+    INFO(name << outcome.err);
+    CHECK(outcome.code == 0);
+    for (const std::string& line : lines(outcome.out)) CHECK(contains(line, ' ' + name + ' '));
+  }
 }
 
 TEST_CASE("log events: an unknown event is refused with what there is") {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/core/csv_field.h"
@@ -12,13 +13,19 @@
 namespace lockstep::host {
 namespace {
 
-// "": nothing began or ended.
-std::string_view change_of(NodeState was, NodeState is) {
+EventKind result_event(Status result) {
+  return result == Status::Success   ? EventKind::Success
+         : result == Status::Failure ? EventKind::Failure
+                                     : EventKind::Skipped;
+}
+
+// None: nothing began or ended.
+std::optional<EventKind> change_of(NodeState was, NodeState is) {
   const Status before = was.status(), now = is.status();
-  if (now == before) return completes_newly(was, is) ? to_string(now) : "";
-  if (now == Status::Running) return "start";
-  if (now == Status::Idle) return before == Status::Running ? "halt" : "";
-  return to_string(now);
+  if (now == before && !completes_newly(was, is)) return std::nullopt;
+  if (now == Status::Running) return EventKind::Start;
+  if (now != Status::Idle) return result_event(now);
+  return before == Status::Running ? std::optional(EventKind::Halt) : std::nullopt;
 }
 
 class Events {
@@ -38,7 +45,7 @@ class Events {
     at_ = {tick.tick, tick.time, {}, {}, {}};
     const bool is_first = next_ == 0 && tick.tick > 0 && tick.whole;
     if (!is_first && tick.tick > next_) {
-      add("lost", "", fmt::format("{} from {} on", tick.tick - next_, next_));
+      add(EventKind::Lost, "", fmt::format("{} from {} on", tick.tick - next_, next_));
     }
     next_ = tick.tick + 1;
     now_.clear();
@@ -53,18 +60,19 @@ class Events {
       add_moments(tick.moments);
     }
     for (const RecordedFault& it : tick.faults)
-      add("fault", header_.nodes[it.node].path, it.message);
+      add(EventKind::Fault, header_.nodes[it.node].path, it.message);
     for (const GivenAnswer& it : tick.answers) {
-      add("answer", header_.nodes[it.node].path, fmt::format("{} (by {})", it.answer, it.who));
+      add(EventKind::Answer, header_.nodes[it.node].path,
+          fmt::format("{} (by {})", it.answer, it.who));
     }
     for (const RecordedEntry& it : tick.entries) {
-      if (!is_first) add("entry", header_.entries[it.entry].key, shown_value(it));
+      if (!is_first) add(EventKind::Entry, header_.entries[it.entry].key, shown_value(it));
     }
-    for (const LeafLine& it : tick.logs) add("log", it.who, it.level + ": " + it.text);
+    for (const LeafLine& it : tick.logs) add(EventKind::Log, it.who, it.level + ": " + it.text);
     for (NodeIndex node = 0; node < factors_.size(); ++node) {
       const double factor = tick.nodes[node].factor;
       if (std::exchange(factors_[node], factor) == factor || is_first) continue;
-      add("pace", header_.nodes[node].path, fmt::format("{:.3g}", factor));
+      add(EventKind::Pace, header_.nodes[node].path, fmt::format("{:.3g}", factor));
     }
     before_ = now_;
     return is_wanted_;
@@ -72,8 +80,8 @@ class Events {
 
   void take(const RecordedEnd& end) {
     at_ = {end.ticks, end.time, {}, {}, {}};
-    for (const LeafLine& it : end.logs) add("log", it.who, it.level + ": " + it.text);
-    add("end", "", fmt::format("{} ({})", end.result, end.reason));
+    for (const LeafLine& it : end.logs) add(EventKind::Log, it.who, it.level + ": " + it.text);
+    add(EventKind::End, "", fmt::format("{} ({})", end.result, end.reason));
   }
 
  private:
@@ -87,15 +95,15 @@ class Events {
     const NodeState before = before_[node], state = now[node];
     const bool is_over = is_told_held_[node] && !state.held();
     if (is_over) is_told_held_[node] = false;
-    if (is_over && state.status() != Status::Idle) add("release", it.path, "");
+    if (is_over && state.status() != Status::Idle) add(EventKind::Release, it.path, "");
     if (times > 0 && state.ticked() && has_ended(state.status())) {
       add_result(it, state.status(), times);
-    } else if (const auto change = change_of(before, state); !change.empty()) {
-      add(change, it.path, "");
+    } else if (const auto change = change_of(before, state)) {
+      add(*change, it.path, "");
     }
     if (!is_told_held_[node] && is_held_itself(node, now)) {
       is_told_held_[node] = true;
-      add("hold", it.path, "");
+      add(EventKind::Hold, it.path, "");
     }
   }
 
@@ -121,10 +129,10 @@ class Events {
   }
 
   void add_result(const ShapeNode& node, Status result, std::uint64_t times) {
-    add(to_string(result), node.path, times == 1 ? "" : fmt::format("{} times", times));
+    add(result_event(result), node.path, times == 1 ? "" : fmt::format("{} times", times));
   }
 
-  void add(std::string_view kind, std::string_view what, std::string value) {
+  void add(EventKind kind, std::string_view what, std::string value) {
     if (at_.tick < range_.from || !is_wanted_) return;
     at_.kind = kind;
     at_.what = what;
@@ -160,21 +168,21 @@ void each_event(RecordingReader& reader, TickRange range, const EventSink& take)
 
 std::string event_line(const RecordingEvent& event) {
   std::string line =
-      fmt::format("{:>10.3f} s  tick {:<8} {:<8}", event.time, event.tick, event.kind);
+      fmt::format("{:>10.3f} s  tick {:<8} {:<8}", event.time, event.tick, to_string(event.kind));
   if (!event.what.empty()) (line += ' ') += event.what;
   if (!event.value.empty()) ((line += event.what.empty() ? " " : ": ")) += event.value;
   return line;
 }
 
 std::string event_csv(const RecordingEvent& event) {
-  return fmt::format("{},{},{},{},{}", event.tick, event.time, event.kind,
+  return fmt::format("{},{},{},{},{}", event.tick, event.time, to_string(event.kind),
                      csv_field(std::string(event.what)), csv_field(event.value));
 }
 
 std::string event_json(const RecordingEvent& event) {
   return Json{{"tick", event.tick},
               {"time_s", event.time},
-              {"event", event.kind},
+              {"event", to_string(event.kind)},
               {"what", event.what},
               {"value", event.value}}
       .text();

@@ -2,6 +2,8 @@
 // or let go on, which entries changed, what leaves logged, which ticks are lost.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -12,11 +14,36 @@
 
 namespace lockstep::host {
 
+enum class EventKind : std::uint8_t {
+  Start,
+  Success,
+  Failure,
+  Skipped,
+  Halt,
+  Hold,
+  Release,
+  Pace,
+  Fault,
+  Answer,
+  Entry,
+  Log,
+  Lost,
+  End
+};
+// Of each, in this order: as --event and all formats spell it.
+inline constexpr std::array<std::string_view, 14> kEventNames = {
+    "start", "success", "failure", "skipped", "halt", "hold", "release",
+    "pace",  "fault",   "answer",  "entry",   "log",  "lost", "end"};
+static_assert(kEventNames.size() == static_cast<std::size_t>(EventKind::End) + 1);
+
+constexpr std::string_view to_string(EventKind kind) {
+  return kEventNames[static_cast<std::size_t>(kind)];
+}
+
 struct RecordingEvent {
   std::uint64_t tick = 0;
-  double time = 0;        // seconds
-  std::string_view kind;  // start, success, failure, skipped, halt, hold, release, fault, entry,
-                          // log, pace, lost, end
+  double time = 0;  // seconds
+  EventKind kind{};
   std::string_view what;  // the path of the node, the key of the entry, who has logged; "": the run
   std::string value;      // of the entry; the message; "": there is none
 };

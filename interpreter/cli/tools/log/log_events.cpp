@@ -64,7 +64,8 @@ bool is_chosen(const LogEventsOptions& options, const RecordingEvent& event) {
   const auto is_meant = [&](const std::string& pattern) { return means(pattern, event.what); };
   const bool is_of_path = options.paths.empty() || std::ranges::any_of(options.paths, is_meant);
   const bool is_of_kind =
-      options.kinds.empty() || std::ranges::find(options.kinds, event.kind) != options.kinds.end();
+      options.kinds.empty() ||
+      std::ranges::find(options.kinds, to_string(event.kind)) != options.kinds.end();
   return is_of_path && is_of_kind;
 }
 
@@ -116,8 +117,7 @@ LogSubcommand define_log_events(CLI::App& log) {
                   "Only events of this kind, such as --event hold --event release")
       ->type_name("EVENT")
       ->allow_extra_args(false)
-      ->check(one_of({"start", "success", "failure", "skipped", "halt", "hold", "release", "fault",
-                      "entry", "log", "lost", "end"}));
+      ->check(one_of(std::vector<std::string>(kEventNames.begin(), kEventNames.end())));
   add_tick_range(*app, options->range);
   return {app, [options] { return events(*options); }};
 }
