@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,32 @@ Began began_in(const std::string& text, const std::string& name) {
   Began began{std::stod(rest), std::stod(rest.substr(sign + std::string("± ").size()))};
   if (contains(line, "before")) began.seconds = -began.seconds;
   return began;
+}
+
+// Of each node: how it was in each tick that reached it.
+using Reached = std::map<std::string, std::vector<std::string>>;
+
+Reached reached_in(const std::string& file, const std::string& robot) {
+  Reached found;
+  for (const std::string& row : lines(run_lockstep({"log", "csv", file}).out)) {
+    std::vector<std::string> cells(1);
+    for (const char it : row) it == ',' ? void(cells.emplace_back()) : void(cells.back() += it);
+    // tick,time_s,node,path,status,progress,ticked,held,…
+    if (cells.size() < 8 || cells[6] != "1" || !cells[3].starts_with(robot)) continue;
+    found[cells[3].substr(robot.size())].push_back(cells[4] + " at " + cells[5] + ", " + cells[7]);
+  }
+  return found;
+}
+
+// Of a robot: how long its synchronized nodes held children, and in how many ticks.
+std::vector<std::string> waits_in(const std::string& file, const std::string& robot) {
+  std::vector<std::string> found;
+  bool is_of_robot = false;
+  for (const std::string& line : lines(run_lockstep({"log", "info", file}).out)) {
+    if (line.ends_with(" ticks)")) is_of_robot = line.starts_with("  " + robot);
+    if (is_of_robot && contains(line, " waited ")) found.push_back(line);
+  }
+  return found;
 }
 
 std::string three_robots(const std::string& me) {
@@ -163,6 +190,37 @@ TEST_CASE("log merge: the result is what each robot has recorded, for all comman
     INFO(command[0] << ' ' << command[1] << ' ' << outcome.err);
     CHECK(outcome.code == 0);
   }
+}
+
+TEST_CASE("log merge: each tick of a robot is in the result, whatever the phase of the others") {
+  const TemporaryDirectory directory;
+  Arguments row;
+  for (const char* const me : {"a", "b", "c"})
+    row.push_back(directory.file(std::string(me) + ".xml", three_robots(me)));
+  std::size_t ticks = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream random(seed, 0);
+    const bool is_row = seed % 2 == 0;
+    Arguments more{"--rate", "10", "--latency", "0.15", "--start", "0"};
+    for (int i = 0; i < (is_row ? 2 : 1); ++i)
+      more.push_back(seed == 1 ? "0.05" : fmt::format("{:.3f}", 0.3 * random.next_double()));
+    const std::string runs = directory.path("runs-" + std::to_string(seed));
+    is_row ? record_team(runs, row, more) : record_carry(runs, more);
+    const Arguments names = is_row ? Arguments{"a", "b", "c"} : Arguments{"left", "right"};
+    Arguments merge{"log", "merge", "-o", directory.path("team.jsonl")};
+    for (const std::string& it : names) merge.push_back(runs + '/' + it + ".jsonl");
+    REQUIRE(run_lockstep(merge).code == 0);
+    for (const std::string& it : names) {
+      INFO(seed << ' ' << it);
+      const Reached own = reached_in(runs + '/' + it + ".jsonl", "");
+      CHECK(reached_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/') ==
+            own);
+      for (const auto& [node, states] : own) ticks += states.size();
+      CHECK(waits_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/') ==
+            waits_in(runs + '/' + it + ".jsonl", ""));
+    }
+  }
+  CHECK(ticks > 1000);
 }
 
 TEST_CASE("log merge: a recording that is cut, and the run of a robot that was started again") {

@@ -4,6 +4,7 @@ namespace lockstep::host {
 
 void HeldChild::after_tick(const TickView& view) {
   const SynchronizedTick& tick = view.parallels[place_];
+  if (tick.is_of_others) return;  // as it was held until then, it is until its own next tick
   pass_time(tick.time);
   const bool held = tick.ticked && tick.held[child_];
   reached_ |= tick.ticked;

@@ -96,11 +96,14 @@ void SynchronizedTicks::read(const Moment& moment, SynchronizedTick& tick) {
   const bool asked = asked_children(moment, node_, children_, is_group_);
   if (with_flags_) read_flags(moment, asked);
   if (!asked) {
-    tick = {.time = moment.time, .status = moment.status(node_)};
+    const Status status = moment.status(node_);
+    const bool is_of_others = status == Status::Running && !is_group_ && !moment.held(node_);
+    tick = {.time = moment.time, .status = status, .is_of_others = is_of_others};
     return;
   }
   tick.time = moment.time;
   tick.ticked = true;
+  tick.is_of_others = false;
   tick.status = moment.status(node_);
   if (compares_) tick.limit = moment.limit(node_);
   tick.used = moment.used(node_);

@@ -16,6 +16,9 @@ struct SynchronizedTick {
   Nanoseconds time{0};  // when the tick of the run began, since the run began
   bool ticked = false;  // did the node ask its children in this tick? If not, only the time counts.
   Status status = Status::Idle;
+  // It runs, and neither was asked nor is held: of the recording of a team, a tick of another
+  // robot.
+  bool is_of_others = false;
   double limit = 0;  // that counted: base/core/synchronization.h
   // The progress of each child as the node used it in this tick; not a number: it was left out.
   std::span<const double> used = {};

@@ -317,7 +317,12 @@ class TeamMerge {
   }
 
   void take(Merged& robot, const RecordedTick& tick) {
-    for (const NodeIndex node : tick.changed) state(robot.nodes[node]) = tick.nodes[node];
+    const auto set = [&](NodeIndex node) { state(robot.nodes[node]) = tick.nodes[node]; };
+    if (robot.has_ticked) {
+      std::ranges::for_each(tick.changed, set);
+    } else {  // forget_ticked() has changed others
+      for (NodeIndex node = 0; node < tick.nodes.size(); ++node) set(node);
+    }
     RecordedState& its = state(robot.node);
     const RecordedState& root = tick.nodes[0];
     its.status = root.status;
