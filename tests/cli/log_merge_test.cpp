@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -64,6 +66,84 @@ Reached reached_in(const std::string& file, const std::string& robot) {
   }
   return found;
 }
+
+// A recording, as it is where the process was killed before a tick, and another one continued after
+// a pause of so many ticks: its file, and that of another robot, which hears two processes.
+struct Killed {
+  static constexpr std::uint64_t kRun = 4242;  // of the second process
+  static constexpr double kPeriod = 0.01;
+
+  Killed(const std::string& path, std::uint64_t before, std::uint64_t ticks)
+      : tick(before), pause(ticks) {
+    const auto all = lines(read_file(path));
+    auto header = nlohmann::ordered_json::parse(all.front());
+    run = header["run"];
+    header["first_tick"] = tick;
+    header["resumed_after_s"] = static_cast<double>(pause) * kPeriod;
+    header["run"] = kRun;
+    std::ofstream killed(path), resumed(replaced(path, ".jsonl", ".resumed-1.jsonl"));
+    resumed << header.dump() << '\n';
+    for (const std::string& line : all) {
+      auto it = nlohmann::ordered_json::parse(line);
+      if (!it.contains("tick")) {
+        killed << (&line == &all.front() ? line + '\n' : "");
+        if (it.contains("end")) resumed << later(it, "end").dump() << '\n';
+      } else if (it["tick"] < tick) {
+        killed << line << '\n';
+        keep(it);
+      } else if (keep(it); it["tick"] >= tick + pause) {
+        if (it["tick"] == tick + pause) it.update(whole());
+        resumed << later(it, "").dump() << '\n';
+      }
+    }
+  }
+
+  void heard_in(const std::string& path, bool is_second_heard) const {
+    std::string text;
+    for (const std::string& line : lines(read_file(path))) {
+      auto it = nlohmann::ordered_json::parse(line);
+      if (it.contains("heard")) {
+        auto words = nlohmann::ordered_json::array();
+        for (auto word : it["heard"]) {
+          const bool is_second = word[1] == run && word[2] > tick + pause;
+          if (is_second && !is_second_heard) continue;
+          if (word[1] == run && !is_second && word[2] > tick) continue;
+          if (is_second) word = {word[0], kRun, word[2].get<std::uint64_t>() - tick - pause};
+          words.push_back(word);
+        }
+        it["heard"] = words;
+      }
+      text += it.dump() + '\n';
+    }
+    std::ofstream(path) << text;
+  }
+
+  std::uint64_t tick, pause, run = 0;
+
+ private:
+  void keep(const nlohmann::ordered_json& line) {
+    for (const auto& node : line["nodes"]) nodes_[node[0]] = node;
+    if (line.contains("limits"))
+      for (const auto& limit : line["limits"]) limits_[limit[0]] = limit;
+  }
+  nlohmann::ordered_json whole() const {
+    nlohmann::ordered_json all{{"nodes", nlohmann::json::array()},
+                               {"limits", nlohmann::json::array()},
+                               {"whole", nlohmann::json::array()}};
+    for (const auto& [index, node] : nodes_) all["nodes"].push_back(node);
+    for (const auto& [index, limit] : limits_) all["limits"].push_back(limit);
+    return all;
+  }
+  nlohmann::ordered_json later(nlohmann::ordered_json line, const std::string& in) const {
+    auto& it = in.empty() ? line : line[in];
+    auto& number = it[in.empty() ? "tick" : "ticks"];
+    number = number.get<std::uint64_t>() - pause;
+    it["time_s"] = it["time_s"].get<double>() - static_cast<double>(pause) * kPeriod;
+    return line;
+  }
+
+  std::map<int, nlohmann::ordered_json> nodes_, limits_;
+};
 
 // Of a robot: how long its synchronized nodes held children, and in how many ticks.
 std::vector<std::string> waits_in(const std::string& file, const std::string& robot) {
@@ -221,6 +301,51 @@ TEST_CASE("log merge: each tick of a robot is in the result, whatever the phase 
     }
   }
   CHECK(ticks > 1000);
+}
+
+TEST_CASE("log merge: each process of a run that was cut and continued has its place") {
+  const TemporaryDirectory directory;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    RandomStream random(seed, 0);
+    const auto below = [&](double most) { return most * random.next_double(); };
+    const double start = below(0.5), latency = below(0.04);
+    const std::string runs = directory.path("runs"), left = runs + "/left.jsonl",
+                      right = runs + "/right.jsonl", team = directory.path("team.jsonl");
+    std::filesystem::remove_all(runs);
+    record_carry(runs, {"--start", "0", fmt::format("{:.6f}", start), "--latency",
+                        fmt::format("{:.6f}", latency), "--seed", std::to_string(seed)});
+    const Killed killed(right, 10 + static_cast<std::uint64_t>(below(40)),
+                        3 + static_cast<std::uint64_t>(below(30)));
+    const bool is_heard = seed % 3 != 0;
+    killed.heard_in(left, is_heard);
+    const bool is_first = seed % 4 == 1;  // the robot with two processes
+    const Outcome merged = run_lockstep(
+        {"log", "merge", is_first ? right : left, is_first ? left : right, "--out", team});
+    INFO("seed " << seed << ", start " << start << ", latency " << latency << ", killed in tick "
+                 << killed.tick << " for " << killed.pause << " ticks: " << merged.err);
+    REQUIRE(merged.code == 0);
+    const double most = latency + 3 * Killed::kPeriod;  // off
+    const std::string name = is_first ? "left" : "right";
+    CHECK(std::abs(began_in(merged.err, name).seconds - (is_first ? -start : start)) <= most);
+    // When each tick of the right one was, of which its own recording lacks the pause.
+    std::vector<double> times;
+    for (const std::string& row : lines(run_lockstep({"log", "csv", team}).out)) {
+      if (!contains(row, "table/right/Carry/InStep,") || !contains(row, ",1,0,")) continue;
+      times.push_back(std::stod(row.substr(row.find(',') + 1)));
+    }
+    REQUIRE(times.size() > killed.tick);
+    double longest = 0;
+    for (std::size_t i = 1; i < times.size(); ++i)
+      longest = std::max(longest, times[i] - times[i - 1]);
+    CHECK(std::abs(longest - static_cast<double>(killed.pause + 1) * Killed::kPeriod) <= most);
+    const Outcome twice =
+        run_lockstep({"log", "merge", left, right, replaced(right, ".jsonl", ".resumed-1.jsonl")});
+    CHECK(contains(twice.err, "are recordings of the same run of 'right'"));
+    const Outcome given = run_lockstep(
+        {"log", "merge", left, right, "--offset", fmt::format("right={}", start), "-o", team});
+    CHECK(given.code == 0);
+    CHECK(given.err.find("by what they have heard") == std::string::npos);
+  }
 }
 
 TEST_CASE("log merge: a recording that is cut, and the run of a robot that was started again") {

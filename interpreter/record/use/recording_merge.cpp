@@ -25,7 +25,7 @@ struct Merged {
   RecordingReader& reader;
   std::string name, prefix;
   bool is_followed;
-  ClockFit clock;
+  std::vector<ClockFit> clocks;
   NodeIndex node = 0;                 // that stands for it
   std::vector<NodeIndex> nodes = {};  // by its own index
   std::uint32_t first_entry = 0;
@@ -34,7 +34,12 @@ struct Merged {
   bool has_ticked = false;  // in the last line
   bool is_over = false;
 
-  double on_clock(double seconds) const { return clock.began + (1 + clock.drift) * seconds; }
+  // Of the process that the reader is in.
+  double on_clock(double seconds) const {
+    const std::size_t cuts = reader.resumes().size() - (reader.header().resumed_after ? 1 : 0);
+    const ClockFit& clock = clocks[std::min(cuts, clocks.size() - 1)];  // a file may have grown
+    return clock.began + (1 + clock.drift) * seconds;
+  }
   void read() {
     next = reader.next();
     if (next) time = std::max(time, on_clock(next->time));
@@ -269,7 +274,7 @@ class TeamMerge {
                      .name = it.name,
                      .prefix = {},
                      .is_followed = it.is_followed,
-                     .clock = it.clock});
+                     .clocks = it.clocks});
     return all;
   }
 

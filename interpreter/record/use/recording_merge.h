@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "record/read/recording_reader.h"
 #include "record/use/team_clocks.h"
@@ -16,7 +17,9 @@ struct RobotRecording {
   RecordingReader* reader = nullptr;  // at its first tick
   std::string name;                   // differs from all others
   bool is_followed = false;           // by another run of the same member, whose end counts
-  ClockFit clock = {};                // `began` at least 0: on the clock of the result
+  // Of each process of the run, which may have been cut and continued. `began` is at least 0: on
+  // the clock of the result.
+  std::vector<ClockFit> clocks = {};
 };
 
 // Whether it is such a recording already.

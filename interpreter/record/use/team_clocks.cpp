@@ -74,7 +74,7 @@ std::vector<Membership> memberships_of(const Shape& shape) {
 }
 
 void TeamWords::add(const RecordedTick& tick) {
-  ticks.push_back({tick.tick, tick.time});
+  ticks.push_back({tick.tick - first_tick, tick.time});
   for (const RecordedHeard& it : tick.heard) heard.push_back({it.run, it.word, tick.time});
 }
 

@@ -22,10 +22,11 @@ struct Membership {
 };
 std::vector<Membership> memberships_of(const Shape& shape);
 
-// What one recording has about its clock, in its own seconds.
+// What one recording has about the clock of a process, in its own seconds. A run that was cut and
+// continued has a process for each part, and the pauses between them are not in its seconds.
 struct TeamWords {
   struct Tick {
-    std::uint64_t tick = 0;
+    std::uint64_t tick = 0;  // of this process, from 0
     double time = 0;
   };
   struct Word {
@@ -33,8 +34,9 @@ struct TeamWords {
     std::uint64_t word = 0;
     double time = 0;  // of the tick that knew it first
   };
-  std::uint64_t run = 0;  // RecordingHeader::run; 0: it has none
-  bool is_real = false;   // of the wall clock
+  std::uint64_t run = 0;         // RecordingHeader::run; 0: it has none
+  std::uint64_t first_tick = 0;  // of the run, in this process
+  bool is_real = false;          // of the wall clock
   std::vector<Tick> ticks = {};
   std::vector<Word> heard = {};
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,16 +36,25 @@ struct LogMergeOptions {
   std::vector<std::string> offsets;  // NAME=SECONDS
 };
 
+// One of those that a run had, which may have been cut and continued.
+struct RobotProcess {
+  TeamWords words = {};
+  double pause = 0;  // in seconds, since the process before it, as its header has it
+  std::optional<ClockFit> clock = {};
+};
+
 // A robot, from its recording, which is read twice.
 struct RobotFile {
   std::string path;
   std::unique_ptr<NamedRecording> file = {};
   std::unique_ptr<RecordingReader> reader = {};
   std::vector<Membership> teams = {};
-  TeamWords words = {};
+  std::vector<RobotProcess> processes = {};
   std::string name = {};
   std::optional<double> offset = {};  // that the user gives
-  std::optional<ClockFit> clock = {};
+
+  const RobotProcess& first() const { return processes.front(); }
+  double began() const { return first().clock->began; }
 
   // An exit code.
   int open() {
@@ -76,16 +86,39 @@ struct RobotFile {
       return kExitUsage;
     }
     name = teams.front().self;
-    words.run = header.run;
-    words.is_real = header.clock == "wall";
-    while (const auto tick = reader->next()) words.add(*tick);
+    const bool is_part = header.resumed_after.has_value();
+    add_process({.first_tick = is_part ? header.first_tick : 0, .after = 0, .run = header.run});
+    bool has_ticks = false;
+    const auto follow_cuts = [&] {
+      const auto cuts = std::span(reader->resumes()).subspan(is_part ? 1 : 0);
+      while (processes.size() <= cuts.size()) add_process(cuts[processes.size() - 1]);
+    };
+    while (const auto tick = reader->next()) {
+      follow_cuts();
+      processes.back().words.add(*tick);
+      has_ticks = true;
+    }
+    follow_cuts();
     if (!reader->error().empty()) return report_end(*reader);
-    if (!words.ticks.empty()) return kExitSuccess;
+    if (has_ticks) return kExitSuccess;
     return usage_error(fmt::format("{}: the recording has no ticks", printable(path)));
+  }
+
+  void add_process(const RecordingReader::Resume& from) {
+    TeamWords words{.run = from.run, .first_tick = from.first_tick};
+    words.is_real = reader->header().clock == "wall";
+    processes.push_back({.words = std::move(words), .pause = from.after});
   }
 };
 
 using RobotFiles = std::deque<RobotFile>;
+
+bool share_a_run(const RobotFile& one, const RobotFile& other) {
+  return std::ranges::any_of(one.processes, [&](const RobotProcess& it) {
+    const auto is_same = [&](const RobotProcess& to) { return to.words.run == it.words.run; };
+    return it.words.run != 0 && std::ranges::any_of(other.processes, is_same);
+  });
+}
 
 bool share_a_team(const RobotFile& one, const RobotFile& other) {
   return std::ranges::any_of(one.teams, [&](const Membership& it) {
@@ -98,7 +131,7 @@ int name_robots(RobotFiles& robots) {
   std::map<std::string, int> count;
   for (auto it = robots.begin(); it != robots.end(); ++it) {
     for (auto before = robots.begin(); before != it; ++before) {
-      if (before->words.run != it->words.run || it->words.run == 0) continue;
+      if (!share_a_run(*before, *it)) continue;
       print_error(fmt::format("'{}' and '{}' are recordings of the same run of '{}'",
                               printable(before->path), printable(it->path), printable(it->name)),
                   "of a recording in parts, give the name that --record got");
@@ -159,11 +192,12 @@ int cannot_place(const RobotFiles& robots, const RobotFile& robot) {
   const std::string hint =
       fmt::format("--offset {}=SECONDS: how long after '{}' it began, negative for before",
                   robot.name, first.name);
-  const ClockBounds bounds = clock_bounds(first.words, ClockFit{}, robot.words);
-  const bool has_words =
-      std::ranges::any_of(robots, [](const RobotFile& it) { return !it.words.heard.empty(); });
+  const ClockBounds bounds =
+      clock_bounds(first.first().words, *first.first().clock, robot.first().words);
+  const bool has_words = std::ranges::any_of(
+      robots, [](const RobotFile& it) { return !it.first().words.heard.empty(); });
   std::string why = fmt::format("the recordings do not show when '{}' began: ", robot.name);
-  if (robot.words.run == 0) {
+  if (robot.first().words.run == 0) {
     why += "its recording was made by a version of lockstep that did not record what is heard";
   } else if (std::isfinite(bounds.least)) {
     why += fmt::format(
@@ -182,37 +216,91 @@ int cannot_place(const RobotFiles& robots, const RobotFile& robot) {
   return kExitUsage;
 }
 
-// Each robot by those that have a place already: by the one with which it is the most certain.
+// By the process of another robot, of those that have a place already, with which it is the most
+// certain. False: what they have heard of each other contradicts itself.
+bool place_by_words(const RobotFiles& robots, const RobotFile& robot, RobotProcess& process,
+                    const RobotFile*& other_robot) {
+  for (const RobotFile& other : robots) {
+    if (&other == &robot) continue;
+    for (const RobotProcess& it : other.processes) {
+      if (!it.clock) continue;
+      const ClockBounds bounds = clock_bounds(it.words, *it.clock, process.words);
+      if (!bounds.is_closed()) continue;
+      other_robot = &other;
+      if (bounds.least > bounds.most) return false;
+      ClockFit fit = bounds.fit();
+      fit.uncertainty += it.clock->uncertainty;
+      if (!process.clock || fit.uncertainty < process.clock->uncertainty) process.clock = fit;
+    }
+  }
+  return true;
+}
+
+// Where words in one direction only do not contradict it, a pause is as long as the header has it.
+ClockFit beyond_cut(const RobotFiles& robots, const RobotFile& robot, const RobotProcess& process,
+                    const ClockFit& from, double pause) {
+  ClockBounds all;
+  for (const RobotFile& other : robots) {
+    for (const RobotProcess& it : other.processes) {
+      if (&other == &robot || !it.clock) continue;
+      const ClockBounds bounds = clock_bounds(it.words, *it.clock, process.words);
+      all.least = std::max(all.least, bounds.least);
+      all.most = std::min(all.most, bounds.most);
+    }
+  }
+  ClockFit fit = from;
+  fit.began = std::max(std::min(from.began + pause, all.most), all.least);
+  return fit;
+}
+
+// The first one that a cut parts from a process that has a place.
+bool place_by_cut(RobotFiles& robots) {
+  for (RobotFile& robot : robots) {
+    auto& all = robot.processes;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      RobotProcess &before = all[i - 1], &after = all[i];
+      if (before.clock.has_value() == after.clock.has_value()) continue;
+      if (before.clock) {
+        after.clock = beyond_cut(robots, robot, after, *before.clock, after.pause);
+      } else {
+        before.clock = beyond_cut(robots, robot, before, *after.clock, -after.pause);
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
 int place(RobotFiles& robots) {
-  robots.front().clock.emplace();
+  robots.front().processes.front().clock.emplace();
   for (RobotFile& it : robots) {
-    if (it.offset) it.clock = ClockFit{.began = *it.offset};
+    if (!it.offset) continue;
+    double began = *it.offset;
+    for (RobotProcess& process : it.processes)
+      process.clock = ClockFit{.began = began += process.pause};
   }
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
     for (RobotFile& robot : robots) {
-      if (robot.clock) continue;
-      for (const RobotFile& other : robots) {
-        if (!other.clock || &other == &robot) continue;
-        const ClockBounds bounds = clock_bounds(other.words, *other.clock, robot.words);
-        if (!bounds.is_closed()) continue;
-        if (bounds.least > bounds.most) {
+      for (RobotProcess& process : robot.processes) {
+        if (process.clock) continue;
+        const RobotFile* other = nullptr;
+        if (!place_by_words(robots, robot, process, other)) {
           print_error(
               fmt::format("what '{}' and '{}' have heard of each other does not fit one clock: "
                           "one was stopped or set",
-                          printable(robot.name), printable(other.name)),
+                          printable(robot.name), printable(other->name)),
               fmt::format("--offset {}=SECONDS: how long after '{}' it began",
                           printable(robot.name), printable(robots.front().name)));
           return kExitUsage;
         }
-        ClockFit fit = bounds.fit();
-        fit.uncertainty += other.clock->uncertainty;
-        if (!robot.clock || fit.uncertainty < robot.clock->uncertainty) robot.clock = fit;
+        goes_on |= process.clock.has_value();
       }
-      goes_on |= robot.clock.has_value();
     }
+    if (!goes_on) goes_on = place_by_cut(robots);
   }
-  const auto unplaced = std::ranges::find_if(robots, [](const auto& it) { return !it.clock; });
+  const auto unplaced =
+      std::ranges::find_if(robots, [](const RobotFile& it) { return !it.first().clock; });
   return unplaced == robots.end() ? kExitSuccess : cannot_place(robots, *unplaced);
 }
 
@@ -220,19 +308,21 @@ void tell_clocks(const RobotFiles& robots) {
   const RobotFile& first = robots.front();
   for (const RobotFile& it : robots) {
     if (&it == &first) continue;
+    const ClockFit& clock = *it.first().clock;
     if (!it.offset) {
-      std::string text = began_text(it, first, *it.clock);
-      if (it.clock->drift != 0) {
-        text += fmt::format(", and its clock is {:.0f} ppm {}", std::abs(it.clock->drift) * 1e6,
-                            it.clock->drift < 0 ? "fast" : "slow");
+      std::string text = began_text(it, first, clock);
+      if (clock.drift != 0) {
+        text += fmt::format(", and its clock is {:.0f} ppm {}", std::abs(clock.drift) * 1e6,
+                            clock.drift < 0 ? "fast" : "slow");
       }
       print_note(printable(text));
       continue;
     }
-    const ClockBounds bounds = clock_bounds(first.words, *first.clock, it.words);
+    const ClockBounds bounds =
+        clock_bounds(first.first().words, *first.first().clock, it.first().words);
     if (*it.offset >= bounds.least && *it.offset <= bounds.most) continue;
     print_note(printable(
-        bounds.is_closed()
+        bounds.is_closed() && bounds.least <= bounds.most
             ? fmt::format("--offset {}={}: by what they have heard, {}", it.name, *it.offset,
                           began_text(it, first, bounds.fit()))
             : fmt::format("--offset {}={}: one has heard a word before the other one sent it",
@@ -263,18 +353,23 @@ std::string team_of(const RobotFiles& robots) {
 
 int merge_to(const LogMergeOptions& options, RobotFiles& robots) {
   double earliest = 0;
-  for (const RobotFile& it : robots) earliest = std::min(earliest, it.clock->began);
+  for (const RobotFile& it : robots) earliest = std::min(earliest, it.began());
   std::vector<RobotRecording> recordings;
   for (RobotFile& it : robots) {
     if (const int code = it.open(); code != kExitSuccess) return code;
-    ClockFit clock = *it.clock;
-    clock.began -= earliest;
+    std::vector<ClockFit> clocks;
+    for (const RobotProcess& process : it.processes) {
+      clocks.push_back(*process.clock);
+      clocks.back().began -= earliest;
+    }
     const bool is_followed = std::ranges::any_of(robots, [&](const RobotFile& other) {
       const bool is_same = other.teams.front().self == it.teams.front().self;
-      return is_same && other.clock->began > it.clock->began;
+      return is_same && other.began() > it.began();
     });
-    recordings.push_back(
-        {.reader = it.reader.get(), .name = it.name, .is_followed = is_followed, .clock = clock});
+    recordings.push_back({.reader = it.reader.get(),
+                          .name = it.name,
+                          .is_followed = is_followed,
+                          .clocks = std::move(clocks)});
   }
   tell_rates(robots);
   const auto report = [&] {
