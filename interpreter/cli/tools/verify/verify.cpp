@@ -29,6 +29,7 @@
 #include "cli/tools/verify/verify_input.h"
 #include "cli/tools/verify/verify_report.h"
 #include "cli/tools/verify/verify_team.h"
+#include "engine/compile.h"
 #include "language/document/file.h"
 #include "language/document/reporter.h"
 #include "run/stop_signals.h"
@@ -166,6 +167,12 @@ class VerifyCommand {
         return kExitUsage;
       identity_ = ticket_identity(*loaded);
     }
+    if (options_.cuts > 0) {
+      if (const auto why_not = why_not_kept(compile(loaded->definition))) {
+        print_error("--cuts: " + why_not->message, why_not->hint);
+        return kExitUsage;
+      }
+    }
     played_.take_over(loaded->definition);
     paces_ = paces(loaded->definition);
     ignore_pace(loaded->definition);
@@ -178,10 +185,6 @@ class VerifyCommand {
     });
     if (!properties) return kExitUsage;
     properties_ = std::move(*properties);
-    if (const auto why_not = why_not_kept(runnable.tree); why_not && options_.cuts > 0) {
-      print_error("--cuts: " + why_not->message, why_not->hint);
-      return kExitUsage;
-    }
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const Observed observed = observed_by(runnable.tree, properties_, problems);
     if (!options_.save_model.empty() && !save_model(runnable.tree, observed.entries))
