@@ -145,6 +145,18 @@ struct Killed {
   std::map<int, nlohmann::ordered_json> nodes_, limits_;
 };
 
+// Those of its nodes, without their ticks and times.
+std::vector<std::string> events_in(const std::string& file, const std::string& robot) {
+  std::vector<std::string> found;
+  for (std::string line : lines(run_lockstep({"log", "events", file, "--format", "csv"}).out)) {
+    line.erase(0, line.find(',', line.find(',') + 1));  // ",success,Carry/InStep,"
+    const auto path = line.find(',', 1) + 1;
+    const bool is_of_node = line.compare(path, robot.size(), robot) == 0 && contains(line, "/");
+    if (is_of_node && !contains(line, ",log,")) found.push_back(line.erase(path, robot.size()));
+  }
+  return found;
+}
+
 // Of a robot: how long its synchronized nodes held children, and in how many ticks.
 std::vector<std::string> waits_in(const std::string& file, const std::string& robot) {
   std::vector<std::string> found;
@@ -160,8 +172,8 @@ std::string three_robots(const std::string& me) {
   return "<root lockstep=\"1\"><plugin name=\"motion\"/><team name=\"row\" "
          "members=\"a;b;c\"/><BehaviorTree ID=\"Drive\"><InStep team=\"row\" as=\"" +
          me +
-         "\" delta=\"0.1\"><Advance name=\"drive\" step=\"0.02\"/></InStep></BehaviorTree>"
-         "</root>\n";
+         "\" delta=\"0.1\"><Sequence><Check name=\"ready\" code=\"1 == 1\"/>"
+         "<Advance name=\"drive\" step=\"0.02\"/></Sequence></InStep></BehaviorTree></root>\n";
 }
 
 }  // namespace
@@ -296,6 +308,8 @@ TEST_CASE("log merge: each tick of a robot is in the result, whatever the phase 
       CHECK(reached_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/') ==
             own);
       for (const auto& [node, states] : own) ticks += states.size();
+      CHECK(events_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/') ==
+            events_in(runs + '/' + it + ".jsonl", ""));
       CHECK(waits_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/') ==
             waits_in(runs + '/' + it + ".jsonl", ""));
     }

@@ -8,6 +8,7 @@
 
 #include "base/core/csv_field.h"
 #include "base/json/json.h"
+#include "record/use/recording_merge.h"
 #include "trace/completion.h"
 
 namespace lockstep::host {
@@ -38,6 +39,11 @@ class Events {
         is_told_held_(header.nodes.size()) {
     const bool paces = std::ranges::any_of(header.nodes, &ShapeNode::paces);
     factors_.assign(paces ? header.nodes.size() : 0, 1);
+    if (!is_merged(header)) return;
+    for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+      const auto parent = header.nodes[node].parent;
+      robot_of_.push_back(!parent || *parent == 0 ? node : robot_of_[*parent]);
+    }
   }
 
   // False: no more is wanted. How fast a node is to be comes last: what follows from a tick.
@@ -50,6 +56,7 @@ class Events {
     next_ = tick.tick + 1;
     now_.clear();
     for (const RecordedState& it : tick.nodes) now_.push_back(it.state());
+    keep_others(now_);
     if (is_first) {
       for (NodeIndex node = 0; node < now_.size(); ++node) {  // what changed with it is not known
         is_told_held_[node] = is_held_itself(node, now_);
@@ -85,6 +92,13 @@ class Events {
   }
 
  private:
+  // A tick of one robot is not between two ticks of another one.
+  void keep_others(std::vector<NodeState>& now) const {
+    for (NodeIndex node = 0; node < robot_of_.size(); ++node) {
+      if (!now[robot_of_[node]].ticked()) now[node] = before_[node];
+    }
+  }
+
   bool is_group(const ShapeNode& it) const {  // it runs as long as it has members
     return !it.members.empty() || !it.resources.empty();
   }
@@ -116,8 +130,10 @@ class Events {
   // In such a tick each result is an event, also one that is as the one before.
   void add_moments(const MomentsView& moments) {
     moments.each(moment_, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
-      for (NodeIndex node = 0; node < now.size(); ++node) add_node(node, now, it.times);
-      before_.assign(now.begin(), now.end());
+      seen_.assign(now.begin(), now.end());
+      keep_others(seen_);
+      for (NodeIndex node = 0; node < seen_.size(); ++node) add_node(node, seen_, it.times);
+      before_ = seen_;
     });
     for (const NodeTotals& it : moments.rest) {
       const ShapeNode& node = header_.nodes[it.node];
@@ -143,8 +159,9 @@ class Events {
   const RecordingHeader& header_;
   const TickRange range_;
   const EventSink& take_;
-  std::vector<NodeState> before_, now_, moment_;
-  std::vector<bool> is_told_held_;  // it has a hold, and no release yet
+  std::vector<NodeState> before_, now_, moment_, seen_;
+  std::vector<NodeIndex> robot_of_;  // of each node, in the recording of a team
+  std::vector<bool> is_told_held_;   // it has a hold, and no release yet
   std::vector<double> factors_;
   RecordingEvent at_;
   std::uint64_t next_ = 0;  // tick

@@ -338,6 +338,7 @@ class TeamMerge {
 
   void forget_ticked(Merged& robot) {
     robot.has_ticked = false;
+    state(robot.node).ticked = false;
     for (const NodeIndex node : robot.nodes) {
       if (state_.nodes[node].ticked) state(node).ticked = false;
     }
