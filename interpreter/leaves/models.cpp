@@ -458,18 +458,26 @@ class ModelMaker {
       if (model.has_progress && !is_on_grid) {
         for (const double level : all_cuts[model.node].levels()) add_level(model, level);
       }
-      count_steps(model, steps);
+      count_steps(model, steps, ways_[leaf].is_left);
     }
   }
 
-  // What a property compares progress with is seen, but makes no step smaller.
-  static void count_steps(LeafModel& model, const std::vector<double>& steps) {
+  // What a property compares progress with is seen, but makes no step smaller: a step may end there
+  // in place of where it would. Of a leaf between the parts of its grid, a step is as long as that
+  // wherever it begins: a level is as far as the part that it lies in.
+  static void count_steps(LeafModel& model, const std::vector<double>& steps, bool is_left) {
     const auto steps_to = [&](double level) {
       return static_cast<std::int32_t>(std::ranges::lower_bound(steps, level - kProgressEpsilon) -
                                        steps.begin());
     };
+    const auto part_with = [&](double level) {
+      return static_cast<std::int32_t>(std::ranges::upper_bound(steps, level + kProgressEpsilon) -
+                                       steps.begin()) -
+             1;
+    };
     model.steps.clear();
-    for (const double level : model.levels) model.steps.push_back(steps_to(level));
+    for (const double level : model.levels)
+      model.steps.push_back(is_left ? part_with(level) : steps_to(level));
     model.goal = steps_to(1);
     model.last_step = static_cast<std::int32_t>(steps.size()) - 1;
   }

@@ -34,7 +34,7 @@ struct LeafModel {
   // having succeeded.
   std::vector<double> levels{0.0};
   // Of each level: the steps from 0 to it. One that only a property tells apart is as far as the
-  // next one that is not.
+  // next one that is not; of a slowed leaf on a grid, as the part that it lies in.
   std::vector<std::int32_t> steps{0};
   std::int32_t goal = 1;       // as many steps: at 1, or behind all
   std::int32_t last_step = 0;  // of a level that not only a property tells apart

@@ -162,6 +162,41 @@ TEST_CASE("a slowed leaf with a grid moves no further in a tick than its model s
   }
 }
 
+// At 0.58 a barrier, at 0.6 and 0.5 a property: none is a part of the grid.
+TEST_CASE("a slowed leaf that is between the parts of its grid keeps to its model there too") {
+  const TemporaryDirectory directory;
+  const std::string model = directory.file(
+      "m.leaves.xml",
+      "<leaves lockstep=\"1\" rate=\"10\"><leaf path=\"*/a\" result=\"success\" "
+      "progress=\"grid:4\" "
+      "step=\"1..1\" finish=\"full\"/><leaf path=\"*/b\" result=\"success\" progress=\"grid:10\" "
+      "step=\"1..1\" finish=\"full\"/></leaves>");
+  for (const auto* const node :
+       {"ParallelRelative delta=\"1\"", "ParallelAbsolute barriers=\"0.58\""}) {
+    const std::string name = std::string(node).substr(0, 16);
+    const std::string tree = directory.file(
+        "t.xml",
+        tree_text(fmt::format(
+            "<{} pace=\"true\"><Advance name=\"a\" step=\"0.25\"/><ForceSuccess><Timeout "
+            "seconds=\"0.25\"><Advance name=\"b\" step=\"0.1\"/></Timeout></ForceSuccess></{}>",
+            node, name)));
+    const std::string property =
+        "a.progress >= 0.6 only after a.progress >= 0.5 and a.progress < 0.6";
+    const Outcome proof = run_lockstep({"verify", tree, "--leaves", model, "--property", property,
+                                        "--only", "property/*", "--out", directory.path("o")});
+    INFO(proof.out << proof.err);
+    CHECK(contains(proof.out, "NO"));
+    const std::string recording = directory.path("r.jsonl");
+    const Outcome run =
+        run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                      "--property", property, "--watch-leaves", model, "--record", recording});
+    INFO(run.out << run.err);
+    CHECK(run.code != 5);
+    CHECK(run_lockstep({"log", "check", recording, "--leaves", model, "--tree-file", tree}).code ==
+          0);
+  }
+}
+
 TEST_CASE("the scenario of a paced run is that run, also where a slowed Timeout counts") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(
