@@ -99,6 +99,7 @@ bool lockstep_run_check(lockstep_run* run, const char* property) {
     if (run == nullptr) return fail("an argument is NULL");
     if (!may_have_properties(*run)) return false;
     const bool was_empty = run->properties.empty();
+    const std::size_t told = run->properties.fresh().size();
     if (property == nullptr) {
       run->properties.add(run->program->runnable.properties);
     } else {
@@ -109,6 +110,7 @@ bool lockstep_run_check(lockstep_run* run, const char* property) {
       }
     }
     if (was_empty && !run->properties.empty()) run->watchers.watch(run->properties);
+    run->tell_fresh_properties(told);
     return true;
   });
 }

@@ -53,6 +53,11 @@ struct lockstep_run {
       if (log) log(who, level, line);
     };
   }
+  // From this one on.
+  void tell_fresh_properties(std::size_t first) {
+    for (const std::string& it : properties.fresh().subspan(first))
+      leaf_log()("lockstep", LOCKSTEP_LOG_INFO, lockstep::host::fresh_property_text(it));
+  }
   lockstep::host::RunOptions with_own(lockstep::host::RunOptions options) {
     options.log = leaf_log();
     options.watch = limits.leaf_watch();

@@ -75,7 +75,8 @@ bool keep(lockstep_run& run, KeepOptions options, const lockstep_keep_options& g
     return refuse(*why_not);
   }
   run.kept = std::move(*kept);
-  run.properties.go_on(run.kept->kept_properties());
+  if (run.kept->continues()) run.properties.go_on(run.kept->kept_properties());
+  run.tell_fresh_properties(0);
   const LoopOptions::Before before = run.kept->before();
   run.first_tick = run.run.ticker().tick_number();
   run.last = before.time;

@@ -26,7 +26,7 @@ void RunProperties::add(std::span<const Property> properties) {
 }
 
 void RunProperties::begin_again() {
-  kept_.clear();
+  kept_.reset();
   make();
 }
 
@@ -40,12 +40,14 @@ void RunProperties::make() {
   if (!empty()) steps_.emplace(*checks_);
   is_over_ = false;
   violations_.clear();
-  if (kept_.empty()) return;
-  checks_->go_on(kept_);
+  fresh_.clear();
+  if (!kept_) return;
+  fresh_ = checks_->go_on(*kept_);
   for (std::size_t i = 0; i < properties_.size(); ++i) {
     if (checks_->verdict(i) != PropertyVerdict::Violated) continue;
-    violations_.push_back(fmt::format("{}: violated in tick {}", properties_[i].name(),
-                                      checks_->decided(i).value_or(0)));
+    const auto tick = checks_->decided(i);
+    violations_.push_back(fmt::format("{}: violated {}before the cut", properties_[i].name(),
+                                      tick ? fmt::format("in tick {}, ", *tick) : ""));
   }
 }
 

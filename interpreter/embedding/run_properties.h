@@ -28,6 +28,8 @@ class RunProperties final : public Observer {
   void begin_again();
   // Before the first tick: goes on where those of a run that was cut were.
   void go_on(const KeptProperties& kept);
+  // The names of those that were not checked before the cut, in the order of the properties.
+  std::span<const std::string> fresh() const { return fresh_; }
   PropertyChecks& checks() { return *checks_; }
 
   // A text for each property that is violated, in the order in which that was found.
@@ -45,7 +47,8 @@ class RunProperties final : public Observer {
   std::vector<Property> properties_;
   std::optional<PropertyChecks> checks_;
   std::optional<PropertySteps> steps_;
-  KeptProperties kept_;  // before a cut; empty: there was none
+  std::optional<KeptProperties> kept_;  // before a cut; nothing: there was none
+  std::vector<std::string> fresh_;
   bool is_over_ = false;
   std::vector<std::string> violations_;
 };

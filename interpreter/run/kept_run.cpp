@@ -68,6 +68,10 @@ CheckpointFacts facts_of(std::vector<std::pair<std::string, std::string>> identi
 
 }  // namespace
 
+std::string fresh_property_text(const std::string& name) {
+  return fmt::format("the property '{}' was not checked before the cut: it begins here", name);
+}
+
 tl::expected<std::unique_ptr<KeptRun>, NotKept> KeptRun::open(
     KeepOptions options, std::vector<std::pair<std::string, std::string>> identity,
     const Tree& tree) {

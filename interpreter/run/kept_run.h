@@ -38,6 +38,9 @@ struct NotKept {
   Problem problem;
 };
 
+// What is told of a property that was not checked before a cut.
+std::string fresh_property_text(const std::string& name);
+
 class KeptRun {
  public:
   // Locks the file, and reads it if the run may go on. `identity` is what makes the run, by names

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <lockstep/runtime.hpp>
@@ -115,6 +116,33 @@ TEST_CASE("a program that resumes a run gets its time, its ticks and what its le
   CHECK(seen == 3);
   CHECK(second.node(1).status == Status::Success);
   CHECK_FALSE(second.not_kept());
+}
+
+TEST_CASE("properties continue with the run, and a line names those that begin after the cut") {
+  const KeptRuns runs("<Count name=\"a\" ticks=\"6\"/>");
+  const auto check = [](runtime::Run& run, const std::string& property) {
+    REQUIRE(lockstep_run_check(run.get(), property.c_str()));
+  };
+  runtime::Run first = runs.run();
+  check(first, "late: a.success only after a.progress >= 0.9");
+  check(first, "slow: never a.progress > 0.3");
+  first.keep(runs.file());
+  for (int tick = 0; tick < 3; ++tick) first.tick(0.1 * tick);
+  std::vector<std::string> told;
+  runtime::Run second = runs.run([&](auto, auto, auto line) { told.emplace_back(line); });
+  check(second, "slow: never a.progress > 0.3");
+  const std::string cut = runs.cut();
+  REQUIRE(second.keep(cut));
+  check(second, "late: a.success only after a.progress >= 0.9");
+  check(second, "fresh: never a.failure");
+  REQUIRE(lockstep_run_violation(second.get(), 0) != nullptr);
+  CHECK(std::string(lockstep_run_violation(second.get(), 0)) ==
+        "slow: violated in tick 2, before the cut");
+  CHECK(lockstep_run_violation(second.get(), 1) == nullptr);
+  CHECK(std::ranges::count(
+            told, "the property 'fresh' was not checked before the cut: it begins here") == 1);
+  CHECK(std::ranges::count_if(
+            told, [](const auto& it) { return it.find("begins here") != it.npos; }) == 1);
 }
 
 TEST_CASE("a loop continues a run that is resumed") {

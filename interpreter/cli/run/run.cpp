@@ -257,8 +257,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       view_.continue_with(kept_->before().ticks, kept_->before().time);
     }
     if (!kept_->resumed().empty()) tell(resumed());
-    for (const std::string& it : kept_->fresh_properties())
-      tell(fmt::format("the property '{}' was not checked before the cut: it begins here", it));
+    for (const std::string& it : kept_->fresh_properties()) tell(fresh_property_text(it));
     return true;
   }
 

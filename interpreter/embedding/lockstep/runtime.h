@@ -429,9 +429,10 @@ LOCKSTEP_EXPORT bool lockstep_run_groot2(lockstep_run* run, const char* address)
  * within 9 ticks" (docs/properties.md). NULL: those of the tree file, which are not checked else.
  * Before the first tick. */
 LOCKSTEP_EXPORT bool lockstep_run_check(lockstep_run* run, const char* property);
-/* Of the properties that are violated so far, in the order in which that was found: what
- * and when ("never arm.failure: violated in tick 3, at 0.300 s"); NULL: no more. Valid until the
- * next tick or restart. */
+/* Of the properties that are violated so far, in the order in which that was found: what and when
+ * ("never arm.failure: violated in tick 3, at 0.300 s"). Of a run that continues, those of before
+ * the cut come first ("…: violated in tick 3, before the cut"). NULL: no more. Valid until the next
+ * tick or restart. */
 LOCKSTEP_EXPORT const char* lockstep_run_violation(lockstep_run* run, uint32_t index);
 
 /* An event of a node that is watched, while the tree is ticked. */
