@@ -11,6 +11,7 @@
 #include "base/core/wording.h"
 #include "engine/writers.h"
 #include "run/script_results.h"
+#include "team/team_run.h"
 
 namespace lockstep::host {
 namespace {
@@ -132,6 +133,7 @@ std::span<const LeafBreach> LeafAudit::after_tick(const Moment& moment,
   for (KnownFact& it : facts_) it.is = knows_before_ ? it.is : FactState::Unknown;
   if (!facts_.empty()) take_sets();
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    if (stands_for_robots(*leaves_[i].leaf->type)) continue;  // it does what its robot does
     look(moment, calls_.of(i), leaves_[i]);
     if (!leaves_[i].outputs.empty()) look_at_outputs(moment, calls_.of(i), leaves_[i]);
   }

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -263,6 +264,17 @@ class WordMaker {
   std::vector<std::string> initial_;  // of each entry: what the tree gives it
 };
 
+// The first node of the language that is about a time, such as a Timeout.
+std::optional<NodeIndex> timed_node(const Tree& tree) {
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    const NodeType& type = *tree.labels[node].type;
+    if (type.leaf != nullptr || type.parameters.empty()) continue;
+    const std::string_view unit = type.parameters.front().unit;
+    if (unit == "s" || unit == "ms") return node;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
@@ -298,6 +310,12 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
     }
     maker.finish();
     words.ticks = ticks;
+    const auto timed = header.clock == "wall" ? timed_node(tree) : std::nullopt;
+    if (timed) {
+      words.notes.push_back(
+          fmt::format("the run was on the wall clock, on which '{}' may take a tick more than here",
+                      tree.path(*timed)));
+    }
   }
   words.outcome = reader.outcome();
   return words;
