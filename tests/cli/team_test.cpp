@@ -103,8 +103,7 @@ TEST_CASE(
   CHECK(contains(kept.err, "--checkpoint: " + why));
   CHECK(contains(run_lockstep({"check", road, "--checkpoint"}).out, "nothing continues: " + why));
   const Outcome proof = run_lockstep({"verify", road, "--cuts"});
-  CHECK(proof.code == 2);
-  CHECK(contains(proof.err, "--cuts: " + why));
+  CHECK(contains(proof.err, "note: --cuts: " + why));
 }
 
 TEST_CASE("check reports teams that cannot be") {

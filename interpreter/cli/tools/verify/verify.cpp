@@ -168,10 +168,8 @@ class VerifyCommand {
       identity_ = ticket_identity(*loaded);
     }
     if (options_.cuts > 0) {
-      if (const auto why_not = why_not_kept(compile(loaded->definition))) {
-        print_error("--cuts: " + why_not->message, why_not->hint);
-        return kExitUsage;
-      }
+      if (const auto why_not = why_not_kept(compile(loaded->definition)))
+        print_note("--cuts: " + why_not->message, "only a run with --leaves continues after a cut");
     }
     played_.take_over(loaded->definition);
     paces_ = paces(loaded->definition);
