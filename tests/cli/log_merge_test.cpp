@@ -157,13 +157,24 @@ std::vector<std::string> events_in(const std::string& file, const std::string& r
   return found;
 }
 
-// Of a robot: how long its synchronized nodes held children, and in how many ticks.
-std::vector<std::string> waits_in(const std::string& file, const std::string& robot) {
-  std::vector<std::string> found;
+// Of a robot: how often, in how many ticks and for how long its synchronized nodes held children.
+struct Waits {
+  std::vector<std::string> counts = {};
+  double seconds = 0;
+  int times = 0;
+};
+
+Waits waits_in(const std::string& file, const std::string& robot) {
+  Waits found;
   bool is_of_robot = false;
   for (const std::string& line : lines(run_lockstep({"log", "info", file}).out)) {
     if (line.ends_with(" ticks)")) is_of_robot = line.starts_with("  " + robot);
-    if (is_of_robot && contains(line, " waited ")) found.push_back(line);
+    const auto waited = line.find(" waited "), seconds = line.find(", "),
+               unit = line.find(" s in ");
+    if (!is_of_robot || waited == line.npos) continue;
+    found.counts.push_back(line.substr(0, seconds) + line.substr(unit));
+    found.seconds += std::stod(line.substr(seconds + 2));
+    found.times += std::stoi(line.substr(waited + 8));
   }
   return found;
 }
@@ -290,17 +301,20 @@ TEST_CASE("log merge: each tick of a robot is in the result, whatever the phase 
   for (const char* const me : {"a", "b", "c"})
     row.push_back(directory.file(std::string(me) + ".xml", three_robots(me)));
   std::size_t ticks = 0;
+  double seconds = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, 0);
     const bool is_row = seed % 2 == 0;
-    Arguments more{"--rate", "10", "--latency", "0.15", "--start", "0"};
-    for (int i = 0; i < (is_row ? 2 : 1); ++i)
-      more.push_back(seed == 1 ? "0.05" : fmt::format("{:.3f}", 0.3 * random.next_double()));
     const std::string runs = directory.path("runs-" + std::to_string(seed));
-    is_row ? record_team(runs, row, more) : record_carry(runs, more);
+    const Arguments timing{"--rate", "10", "--latency", "0.15"};
+    is_row ? record_team(runs, row, timing) : record_carry(runs, timing);
     const Arguments names = is_row ? Arguments{"a", "b", "c"} : Arguments{"left", "right"};
     Arguments merge{"log", "merge", "-o", directory.path("team.jsonl")};
-    for (const std::string& it : names) merge.push_back(runs + '/' + it + ".jsonl");
+    for (const std::string& it : names) {
+      merge.push_back(runs + '/' + it + ".jsonl");
+      if (it == names.front()) continue;
+      merge.insert(merge.end(), {"--offset", fmt::format("{}={:.3f}", it, random.next_double())});
+    }
     REQUIRE(run_lockstep(merge).code == 0);
     for (const std::string& it : names) {
       INFO(seed << ' ' << it);
@@ -310,11 +324,17 @@ TEST_CASE("log merge: each tick of a robot is in the result, whatever the phase 
       for (const auto& [node, states] : own) ticks += states.size();
       CHECK(events_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/') ==
             events_in(runs + '/' + it + ".jsonl", ""));
-      CHECK(waits_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/') ==
-            waits_in(runs + '/' + it + ".jsonl", ""));
+      const Waits own_waits = waits_in(runs + '/' + it + ".jsonl", "");
+      const Waits waits =
+          waits_in(directory.path("team.jsonl"), (is_row ? "row/" : "table/") + it + '/');
+      CHECK(waits.counts == own_waits.counts);
+      // A tick that is in a line with one of another robot has the time of the earlier one.
+      CHECK(std::abs(waits.seconds - own_waits.seconds) <= 0.05 * own_waits.times + 1e-9);
+      seconds += waits.seconds;
     }
   }
   CHECK(ticks > 1000);
+  CHECK(seconds > 1);
 }
 
 TEST_CASE("log merge: each process of a run that was cut and continued has its place") {

@@ -94,7 +94,7 @@ class Events {
  private:
   // A tick of one robot is not between two ticks of another one.
   void keep_others(std::vector<NodeState>& now) const {
-    for (NodeIndex node = 0; node < robot_of_.size(); ++node) {
+    for (std::size_t node = robot_of_.size(); node-- > 0;) {  // a robot after its nodes
       if (!now[robot_of_[node]].ticked()) now[node] = before_[node];
     }
   }
