@@ -214,3 +214,20 @@ TEST_CASE("the scenario of a paced run is that run, also where a slowed Timeout 
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 0);
 }
+
+TEST_CASE("log scenario: of a run on the wall clock, a time may take a tick more") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml", tree_text("<Wait name=\"pause\" seconds=\"0.4\"/>"));
+  const std::string recording = directory.path("r.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                        "--record", recording})
+              .code == 0);
+  CHECK(run_lockstep({"log", "scenario", recording}).err.empty());
+  std::string text = read_file(recording);
+  const std::string clock = "\"clock\":\"virtual\"";
+  REQUIRE(contains(text, clock));
+  text.replace(text.find(clock), clock.size(), "\"clock\":\"wall\"");
+  const std::string wall = directory.file("w.jsonl", text);
+  CHECK(contains(run_lockstep({"log", "scenario", wall}).err, "may take a tick more than here"));
+}

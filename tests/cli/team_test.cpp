@@ -471,6 +471,33 @@ TEST_CASE("lockstep verify: what is not looked at, and not known yet") {
   CHECK(contains(outcome.out, "facts belong to one robot"));
 }
 
+TEST_CASE("log check: the leaf of a robot that has ended does what its robot does") {
+  const TemporaryDirectory directory;
+  const auto tree = [&](const std::string& name, const std::string& nodes) {
+    return directory.file(
+        name,
+        "<root lockstep=\"1\"><plugin name=\"motion\"/><arg name=\"me\" default=\"left\"/>"
+        "<team name=\"t\" members=\"left;right\"/><BehaviorTree ID=\"T\">" +
+            nodes + "</BehaviorTree></root>\n");
+  };
+  const std::string in_step = "<InStep team=\"t\" as=\"${me}\" barriers=\"0.25;0.75\"",
+                    part = "<Advance step=\"0.05\"/></InStep>";
+  const std::string left = tree("a.xml", in_step + ">" + part);
+  const std::string right = tree("b.xml", "<ForceSuccess><Timeout seconds=\"0.8\">" + in_step +
+                                              ">" + part + "</Timeout></ForceSuccess>");
+  const std::string model =
+      directory.file("m.leaves.xml",
+                     "<leaves lockstep=\"1\" rate=\"10\"><leaf of=\"Advance\" result=\"success\" "
+                     "progress=\"grid:20\" step=\"1..1\"/></leaves>\n");
+  run_lockstep({"team", left + ",me=left", right + ",me=right", "--rate", "10", "--max-ticks", "40",
+                "--record", directory.path("r")});
+  const std::string recording = directory.path("r/left.jsonl");
+  REQUIRE(contains(read_file(recording), "\"right\""));
+  const Outcome outcome = run_lockstep({"log", "check", recording, "--leaves", model});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+}
+
 TEST_CASE("properties of trees of a team: verify and team have a verdict of each, of each robot") {
   const TemporaryDirectory directory;
   const auto carry_with = [&](const std::string& properties) {

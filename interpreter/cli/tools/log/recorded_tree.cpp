@@ -9,6 +9,7 @@
 #include "cli/load/load_options.h"
 #include "record/read/recording_reader.h"
 #include "record/use/recording_merge.h"
+#include "team/team_run.h"
 
 namespace lockstep::host {
 namespace {
@@ -58,7 +59,7 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
   }
   if (!is_main_of(*loaded->project->documents.front(), header.id)) main_ = header.id;
   if (look) look(*loaded);
-  played_.take_over(loaded->definition);
+  played_.take_over(loaded->definition, stands_for_robots);
   runnable_ = make_runnable(std::move(*loaded));
 }
 
