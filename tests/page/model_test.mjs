@@ -40,6 +40,21 @@ test("a state stands until a line changes it, also over ticks that have no line"
   assert.deepEqual(model.waitOf(late, 2).for, [1]);
 });
 
+test("in the recording of a team, a tick of one robot is not between two ticks of another one", () => {
+  const run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, nodes: [
+    { index: 0, path: "team", kind: "Team", name: "team", parent: null },
+    { index: 1, path: "team/left", kind: "Robot", name: "left", parent: 0 },
+    { index: 2, path: "team/left/guard", kind: "Condition", name: "guard", parent: 1 },
+    { index: 3, path: "team/right", kind: "Robot", name: "right", parent: 0 }] }));
+  const tick = (robot, ticked) => [robot, "running", 0, ticked, 0], guard = (ticked) => [2, "success", 1, ticked, 0];
+  const left = [tick(1, 1), guard(1), tick(3, 0)], right = [tick(1, 0), guard(0), tick(3, 1)];
+  const others = [tick(1, 1), guard(0), tick(3, 0)];
+  [left, right, left, right, others, right, left].forEach((nodes, tick) => run.feed(JSON.stringify({ tick, time_s: tick / 20, nodes })));
+  const successes = run.events.all.filter((it) => it.kind === "success" && it.node === 2);
+  assert.deepEqual(successes.map(({ line }) => line), [0, 6]);
+});
+
 test("a node that waits for another robot has where that was heard last, and how long ago", () => {
   const run = new model.Run();
   run.feed(JSON.stringify({ ...HEADER, nodes: [

@@ -37,8 +37,9 @@ export class NodeColumn {
   length = 0;
   isThin = false; // some progress of long ago is forgotten
 
-  push(line: number, progress: number, flags: number) {
-    const { states } = this, state = flags & ~TICKED, before = this.length === 0 ? 0 : this.flags[this.length - 1];
+  // `before`: the flags of the tick before.
+  push(line: number, progress: number, flags: number, before = this.length === 0 ? 0 : this.flags[this.length - 1]) {
+    const { states } = this, state = flags & ~TICKED;
     if (state !== (before & ~TICKED) || completesNewly(before, flags)) states.push(line, state);
     if (this.length === this.lines.length) {
       this.lines = grown(this.lines, Uint32Array);

@@ -40,6 +40,8 @@ export class Run {
   cuts: Cut[] = [];
   version = 0; // grows with what is fed
   private joins = false; // the line tells what there was, not what happened
+  private robotOf: number[] = []; // of each node, in the recording of a team; else empty
+  private tickedBefore: number[] = []; // of each node: TICKED, if its robot's last tick reached it
   private turned: number[] = []; // that the line holds, or holds no longer
   private readonly thinner = new Thinner();
 
@@ -86,6 +88,10 @@ export class Run {
     this.header = header;
     this.shape = shapeOf(header);
     this.nodes = header.nodes.map(() => new NodeColumn());
+    if (header.nodes[0]?.kind === "Team") {
+      header.nodes.forEach(({ parent }, node) => this.robotOf.push(parent ? this.robotOf[parent] : node));
+      this.tickedBefore = this.robotOf.map(() => 0);
+    }
     this.entries = (header.entries ?? []).map(() => []);
     this.counts = new Counts(header.nodes.length, this.entries.length);
   }
@@ -103,7 +109,7 @@ export class Run {
     this.events.lateness();
     const isWhole = line.full === true || line.whole !== undefined;
     this.joins = isWhole && this.lines === 1 && line.tick > 0;
-    const before = line.moments ? this.nodes.map(lastFlags) : null;
+    const before = line.moments ? this.nodes.map((column, node) => this.flagsBefore(node, lastFlags(column))) : null;
     if (isWhole) this.forgetOthers(line);
     for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
       this.change(node, progress, flagsOf(status, ticked, held), before !== null);
@@ -139,8 +145,16 @@ export class Run {
     const missing = this.counts.correct(line);
     if (missing && !this.joins) this.events.missed(missing);
     this.takeLogs(line.logs);
+    this.robotOf.forEach((robot, node) => {
+      if (lastFlags(this.nodes[robot]) & TICKED) this.tickedBefore[node] = lastFlags(this.nodes[node]) & TICKED;
+    });
     this.events.settle();
     this.thinner.events(this.events);
+  }
+
+  // A tick of one robot is not between two ticks of another one.
+  private flagsBefore(node: number, flags: number): number {
+    return this.robotOf.length === 0 ? flags : (flags & ~TICKED) | this.tickedBefore[node];
   }
 
   // A line with the whole state leaves out the nodes that are idle.
@@ -180,11 +194,12 @@ export class Run {
     const changes = this.nodes[node];
     const before = changes.length === 0 ? 0 : changes.flags[changes.length - 1];
     if (changes.length > 0 && before === flags && changes.progress[changes.length - 1] === progress) return;
-    changes.push(this.last, progress, flags);
+    const was = this.flagsBefore(node, before);
+    changes.push(this.last, progress, flags, was);
     if (before !== flags && !isPart) this.counts.change(node, flags, this.ticks[this.last], this.joins);
     if ((before ^ flags) & HELD) this.turned.push(node);
     this.thinner.count(this.nodes);
-    if (!this.joins && !isPart) this.events.change(node, before, flags);
+    if (!this.joins && !isPart) this.events.change(node, was, flags);
   }
 
   private changeEntry(entry: number, value: string | null) {
