@@ -84,7 +84,7 @@ TEST_CASE("probabilities that come near slowly end within --time, with the inter
                                    "--time", "2", "--property", "calm: never Step.skipped"});
   INFO(it.out);
   CHECK(it.code == 124);
-  CHECK(it.cpu_seconds < 3);
+  CHECK(it.cpu_seconds < 2.5);
   CHECK(contains(it.out, "\n  success          unknown: in 0 to 1\n"));
   CHECK(contains(it.out, "\n  ends             1\n"));
   CHECK(contains(it.out, "\n  property 'calm'  1\n"));

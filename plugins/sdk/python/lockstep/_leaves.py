@@ -89,7 +89,8 @@ class _Class:
             create=native.CREATE(self.create), destroy=native.CALL(self.destroy),
             start=native.CALL(self.caller_of(lockstep_leaf._start)),
             tick=native.TICK(self.caller_of(self.tick, native.RUNNING)), flags=_REAL_TIME if fact.get("real_time") else 0)
-        self.table.halt = native.CALL(self.caller_of(lockstep_leaf._halt))
+        if hasattr(cls, "halt"):
+            self.table.halt = native.CALL(self.caller_of(lockstep_leaf._halt))
         if "pause" in fact:
             self.table.pause = native.CALL(self.caller_of(lambda leaf: lockstep_leaf._call(leaf, "pause")))
             self.table.resume = native.CALL(self.caller_of(lambda leaf: lockstep_leaf._call(leaf, "resume")))
