@@ -43,6 +43,25 @@ class Breaks : public lockstep::Action<>, public lockstep::Kept<int> {
   }
 };
 
+// A robot keeps its speed until it is told another one.
+struct Moved {
+  double at = 0, factor = 1;
+};
+
+struct MovePorts : lockstep::Ports {
+  Input<double> step{this, "step", "0.1", "in each tick, at full speed"};
+};
+
+class Move : public lockstep::Action<MovePorts>, public lockstep::Kept<Moved> {
+ public:
+  Status tick() override {
+    kept.at += step.get() * kept.factor;
+    return kept.at >= 1 ? Status::Success : Status::Running;
+  }
+  double progress() const override { return kept.at < 1 ? kept.at : 1; }
+  double set_pace(double factor) override { return kept.factor = factor; }
+};
+
 // The second one cannot be made.
 class Unique : public lockstep::Action<> {
  public:
@@ -58,7 +77,7 @@ class KeptRuns {
   explicit KeptRuns(const std::string& nodes) {
     fs::create_directory(folder_);
     project_.add_leaf<Count>("Count", "Counts its ticks").add_leaf<Breaks>("Breaks", "Does");
-    project_.add_leaf<Unique>("Unique", "Is made once");
+    project_.add_leaf<Unique>("Unique", "Is made once").add_leaf<Move>("Move", "Moves");
     project_.load_text("<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + nodes +
                        "</BehaviorTree></root>");
   }
@@ -143,6 +162,38 @@ TEST_CASE("properties continue with the run, and a line names those that begin a
             told, "the property 'fresh' was not checked before the cut: it begins here") == 1);
   CHECK(std::ranges::count_if(
             told, [](const auto& it) { return it.find("begins here") != it.npos; }) == 1);
+}
+
+TEST_CASE("a run that paces continues after a cut as if there was none, tick by tick") {
+  const KeptRuns runs(
+      "<ParallelAbsolute barriers=\"0.5\" pace=\"true\"><Move name=\"slow\"/>"
+      "<Move name=\"fast\" step=\"0.3\"/></ParallelAbsolute>");
+  using Trace = std::vector<double>;
+  // From this tick on, after each: the progress of both. It is cut after so many ticks.
+  const auto trace = [](runtime::Run& run, std::uint64_t tick, std::uint64_t most) {
+    Trace seen;
+    for (Status status = Status::Running; status == Status::Running && tick < most; ++tick) {
+      status = run.tick(0.1 * static_cast<double>(tick));
+      for (const std::uint32_t node : {1u, 2u}) seen.push_back(run.node(node).progress);
+    }
+    return seen;
+  };
+  runtime::Run whole = runs.run();
+  const Trace expected = trace(whole, 0, 100);
+  const std::uint64_t ticks = expected.size() / 2;
+  REQUIRE(ticks > 9);
+  for (std::uint64_t cut_at = 1; cut_at < ticks; ++cut_at) {
+    INFO("cut after " << cut_at << " ticks");
+    runtime::Run first = runs.run();
+    first.keep(runs.file());
+    Trace seen = trace(first, 0, cut_at);
+    runtime::Run second = runs.run();
+    REQUIRE(second.keep(runs.cut())->ticks == cut_at);
+    const Trace rest = trace(second, cut_at, 100);
+    seen.insert(seen.end(), rest.begin(), rest.end());
+    CHECK(seen == expected);
+    fs::remove(runs.file());
+  }
 }
 
 TEST_CASE("a loop continues a run that is resumed") {
