@@ -23,6 +23,15 @@ std::string record_carry(const TemporaryDirectory& directory, const std::string&
   return file;
 }
 
+// A run at 10 Hz on the virtual clock, in the file.
+Outcome record_run(const std::string& tree, const std::string& file,
+                   const std::vector<std::string>& more = {}) {
+  std::vector<std::string> call{"run", tree,     "--clock", "virtual",  "--rate",
+                                "10",  "--view", "none",    "--record", file};
+  call.insert(call.end(), more.begin(), more.end());
+  return run_lockstep(call);
+}
+
 double carry_value(const std::string& recording, const std::string& measure) {
   const Outcome outcome =
       run_lockstep({"log", "measure", recording, "--measure", measure, "--json"});
@@ -85,9 +94,7 @@ TEST_CASE("a leaf model is of full speed: verify and `log check` let a slowed le
     CHECK((proof.code == 0) == !paces);
     CHECK(contains(proof.out, "may take longer than in its leaf model") == paces);
     const std::string recording = directory.path(paces ? "paced.jsonl" : "held.jsonl");
-    REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
-                          "--record", recording})
-                .code == 0);
+    REQUIRE(record_run(tree, recording).code == 0);
     CHECK(run_lockstep({"log", "check", recording, "--leaves", model, "--tree-file", tree}).code ==
           0);
   }
@@ -151,9 +158,7 @@ TEST_CASE("a slowed leaf with a grid moves no further in a tick than its model s
     CHECK(contains(proof.out, "holds") != contains(node, "Relative"));
     for (const std::string step : {"0.1", "0.4"}) {
       const std::string tree = tree_with(step), recording = directory.path("r.jsonl");
-      REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
-                            "--record", recording})
-                  .code == 0);
+      REQUIRE(record_run(tree, recording).code == 0);
       const Outcome checked =
           run_lockstep({"log", "check", recording, "--leaves", model, "--tree-file", tree});
       INFO(checked.out << checked.err);
@@ -188,8 +193,7 @@ TEST_CASE("a slowed leaf that is between the parts of its grid keeps to its mode
     CHECK(contains(proof.out, "NO"));
     const std::string recording = directory.path("r.jsonl");
     const Outcome run =
-        run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
-                      "--property", property, "--watch-leaves", model, "--record", recording});
+        record_run(tree, recording, {"--property", property, "--watch-leaves", model});
     INFO(run.out << run.err);
     CHECK(run.code != 5);
     CHECK(run_lockstep({"log", "check", recording, "--leaves", model, "--tree-file", tree}).code ==
@@ -206,9 +210,7 @@ TEST_CASE("the scenario of a paced run is that run, also where a slowed Timeout 
           "<Timeout seconds=\"3\"><Advance name=\"fast\" step=\"0.05\"/></Timeout>"
           "</ParallelRelative>"));
   const std::string recording = directory.path("r.jsonl"), scenario = directory.path("t.test.xml");
-  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
-                        "--record", recording})
-              .code == 0);
+  REQUIRE(record_run(tree, recording).code == 0);
   REQUIRE(run_lockstep({"log", "scenario", recording, "--save", scenario}).code == 0);
   const Outcome outcome = run_lockstep({"test", scenario});
   INFO(outcome.out << outcome.err);
@@ -220,9 +222,7 @@ TEST_CASE("log scenario: of a run on the wall clock, a time may take a tick more
   const std::string tree =
       directory.file("t.xml", tree_text("<Wait name=\"pause\" seconds=\"0.4\"/>"));
   const std::string recording = directory.path("r.jsonl");
-  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
-                        "--record", recording})
-              .code == 0);
+  REQUIRE(record_run(tree, recording).code == 0);
   CHECK(run_lockstep({"log", "scenario", recording}).err.empty());
   std::string text = read_file(recording);
   const std::string clock = "\"clock\":\"virtual\"";
