@@ -26,7 +26,7 @@ class RunProperties final : public Observer {
   bool empty() const { return properties_.empty(); }
   // The run is as new.
   void begin_again();
-  // Before the first tick: goes on where those of a run that was cut were.
+  // Before the first tick: continues the properties of a run that was cut.
   void go_on(const KeptProperties& kept);
   // The names of those that were not checked before the cut, in the order of the properties.
   std::span<const std::string> fresh() const { return fresh_; }

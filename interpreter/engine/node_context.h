@@ -147,7 +147,8 @@ class NodeContext : public RunView {
   // failed: its tick, or the next one, returns Failure.
   void set_fault(NodeIndex node, std::string message);
   // A fault in none of the node's calls: of a script around it, of who watches it, of its owner.
-  // `runs`: until it is halted; else nothing is left of this for its next activation.
+  // With `runs` the node keeps the fault until it is halted. Otherwise its next activation begins
+  // without it.
   void set_fault_around(NodeIndex node, bool runs, std::string message);
   // Only the first of each leaf is kept.
   void note_out_of_range(NodeIndex node, double reported);

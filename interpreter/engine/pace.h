@@ -43,7 +43,7 @@ struct PacingState {
 };
 
 // What a leaf that obeys keeps of its activation: what it was told last, and took up. After a cut
-// it has been told nothing: what it has kept of itself may have another speed.
+// nothing counts as told, because the leaf may have kept another speed.
 struct LeafPace {
   double told;
   double taken;

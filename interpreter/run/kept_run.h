@@ -38,7 +38,7 @@ struct NotKept {
   Problem problem;
 };
 
-// What is told of a property that was not checked before a cut.
+// The line about a property that was not checked before a cut.
 std::string fresh_property_text(const std::string& name);
 
 class KeptRun {

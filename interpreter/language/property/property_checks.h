@@ -62,8 +62,8 @@ class PropertyChecks {
 
   // Does not allocate where `into` is what it made of the tick before.
   void keep(KeptProperties& into) const;
-  // Before the first step: goes on where these were kept. Of those that were not, the names: what
-  // they say is of the ticks from now on.
+  // Before the first step: continues from what was kept. Returns the names of the properties of
+  // which nothing was kept: their verdicts are about the ticks from now on.
   std::vector<std::string> go_on(const KeptProperties& kept);
 
  private:

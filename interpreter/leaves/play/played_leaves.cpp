@@ -81,8 +81,8 @@ class PlayedLeaf final : public RemoteLeaf {
     const std::size_t count = is_held_ ? held_words() : 0;
     return count == 0 ? progress_ : (*words_)[at_ + count - 1].progress;
   }
-  // The words of a recording are what it did with the factors that it was given. One that takes a
-  // time, or the same words in each activation, takes them however fast it is to be.
+  // The words of a recording are what the leaf did with its factors, so it accepts them again. A
+  // leaf with a time, or with the same words in each activation, does not depend on the factor.
   double set_pace(double factor) override {
     return words_ == nullptr || restarts_ || time_.count() > 0 ? 1 : factor;
   }

@@ -30,8 +30,9 @@ class ProgramProcess {
   ProgramProcess& operator=(const ProgramProcess&) = delete;
 
   static constexpr std::size_t kMostUnwritten = std::size_t{4} << 20;
-  // Never waits: what the program does not take now is kept for the next call. TooMuch: there is
-  // more than kMostUnwritten, and the program has taken nothing for a while. Deaf: nobody reads.
+  // Never waits: what the program does not take now is kept for the next call. TooMuch: more
+  // than kMostUnwritten waits, and the program has read nothing for a while. Deaf: its input is
+  // closed.
   enum class Written { Good, TooMuch, Deaf };
   Written write(std::string_view text);
   bool has_unwritten() const { return !unwritten_.empty(); }
