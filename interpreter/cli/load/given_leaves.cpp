@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <utility>
 
 #include "cli/console.h"
 #include "language/document/file.h"
+#include "tree/pace.h"
 
 namespace lockstep::host {
 
@@ -54,6 +56,12 @@ void GivenLeaves::tell(std::uint32_t line, std::uint32_t column, const std::stri
 }
 
 void GivenLeaves::take_over(Definition& definition) {
+  // A script has each tick, as it was without pace: a finding of verify is one.
+  if (file_ == nullptr && paces(definition)) {
+    ignore_pace(definition);
+    if (!std::exchange(told_of_pace_, true))
+      print_note("--leaves: pace has no effect, since a script states each tick of its leaves");
+  }
   given_.emplace_back().played.take_over(definition);
 }
 

@@ -50,6 +50,7 @@ class GivenLeaves {
     LeafModels models;
   };
   std::deque<Given> given_;  // of each tree
+  bool told_of_pace_ = false;
 };
 
 }  // namespace lockstep::host
