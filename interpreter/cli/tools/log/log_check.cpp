@@ -18,6 +18,8 @@
 #include "record/read/recorded_moments.h"
 #include "record/use/recorded_properties.h"
 #include "run/leaf_audit.h"
+#include "verify/property_watch.h"
+#include "verify/verifiable.h"
 
 namespace lockstep::host {
 namespace {
@@ -92,13 +94,18 @@ int check_leaves(const LogCheckOptions& options) {
       print_diagnostics(diagnostics, Severity::Warning);
       return kExitInvalidTree;
     }
+    const Tree& tree = recorded.tree();
+    const auto properties = all_properties(recorded.properties(), options.properties,
+                                           [&] { return names_with_facts(tree, file->facts); });
+    if (!properties) return kExitUsage;
     std::vector<NodeProblem> problems;  // of values that nothing declares: they are not compared
-    const LeafModels models = make_models(recorded.tree(), file.get(), diagnostics, problems);
+    const Observed observed = observed_by(tree, *properties, problems);
+    const LeafModels models = make_models(tree, file.get(), diagnostics, problems, observed);
     print_diagnostics(diagnostics, Severity::Warning);
     if (diagnostics.has_errors()) return kExitInvalidTree;
     constexpr std::size_t kMost = 3;  // of each leaf
     const RecordingHeader& header = reader.header();
-    LeafAudit audit(header, recorded.tree(), models, &file->sources);
+    LeafAudit audit(header, tree, models, &file->sources);
     RecordedMoments moments(header);
     std::vector<std::size_t> counts(header.nodes.size());
     std::string text;
@@ -125,6 +132,7 @@ int check_leaves(const LogCheckOptions& options) {
 
 int check(const LogCheckOptions& options) {
   const int leaves = options.leaves.empty() ? kExitSuccess : check_leaves(options);
+  if (leaves == kExitUsage) return leaves;  // the properties may be the reason
   if (!options.has_properties() && !options.asks_tree()) return leaves;
   return first_failure(leaves, check_properties(options));
 }
