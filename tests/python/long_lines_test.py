@@ -10,12 +10,13 @@ PROGRAM = """#!/usr/bin/python3
 from lockstep_leaf import Action, Fixed, Output, serve
 
 class Make(Action):
-    "Sets a text of so many characters."
+    "Sets a text of so many letters."
     size: int
+    letter: str = "x"
     text: Output[str]
 
     def tick(self):
-        self.text = "x" * self.size
+        self.text = self.letter * self.size
         return True
 
 class Take(Action):
@@ -77,6 +78,10 @@ class LongLines(unittest.TestCase):
                      f'<Take size="{size}" text="{{t}}"/></Sequence></Repeat>')
             for clock in ("virtual", "wall"):
                 self.assertEqual(self.run_tree(nodes, clock=clock).result, "success")
+
+    def test_letters_that_are_not_ascii_have_their_size_in_utf_8(self):
+        nodes = '<Sequence memory="true"><Make size="500000" letter="é" text="{t}"/><Take size="500000" text="{t}"/></Sequence>'
+        self.assertEqual(self.run_tree(nodes).result, "success")
 
     def test_the_longest_line_to_a_program(self):
         def take(one, other):

@@ -212,9 +212,11 @@ class TreesTest(unittest.TestCase):
                                 ("reals", 1.0), ("numbers", ["a"]), ("text", 3)):
                 with self.assertRaisesRegex(TypeError, f"the entry '{name}' is of type .*, not "):
                     it.entries[name] = value
-            for name, value in (("number", 2**63), ("real", float("nan")), ("number", "many"), ("text", "a\0b")):
+            for name, value in (("number", 2**63), ("real", float("nan")), ("number", "many")):
                 with self.assertRaises(ValueError):
                     it.entries[name] = value
+            it.entries["text"] = "a\0b"
+            self.assertEqual(it.entries["text"], "a\0b")
             it.entries["numbers"] = "1;2"  # as in XML
             self.assertEqual(it.entries["numbers"], [1, 2])
             with self.assertRaisesRegex(KeyError, "no node uses an entry 'flga'; did you mean 'flag'"):
@@ -440,6 +442,11 @@ class TreesTest(unittest.TestCase):
             end = it.run(max_ticks=10)
             self.assertEqual((end.result, end.reason, end.ticks, end.code), ("stopped", "max_ticks", 10, 124))
             self.assertEqual(it.run(timeout=0.5).reason, "timeout")
+            end = it.run(timeout=0)
+            self.assertEqual((end.result, end.reason, end.ticks, end.code), ("stopped", "timeout", 0, 124))
+            for wrong in ({"max_ticks": 0}, {"max_ticks": -1}, {"max_ticks": 1.5}, {"timeout": -1}, {"timeout": float("nan")}):
+                with self.assertRaisesRegex(ValueError, "expected"):
+                    it.run(**wrong)
         with tree('<Count ticks="5"/>', period=0.001, clock="wall") as it:
             self.assertGreaterEqual(it.run().time_s, 0.004)
             it.restart()

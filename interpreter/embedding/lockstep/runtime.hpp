@@ -359,7 +359,8 @@ struct Resumed {
   std::vector<ResumedLeaf> leaves;
 };
 
-// One run of a tree, with separate leaves. Used by one thread at a time.
+// One run of a tree, with separate leaves. Used by one thread at a time, and not destroyed in a
+// function that it calls.
 class Run {
   using EntryName = detail::EntryName;
 

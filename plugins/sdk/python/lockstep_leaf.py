@@ -409,9 +409,15 @@ def _pace(leaf, factor):
     return min(max(float(taken), factor), 1.0)
 
 
+def _json(what):
+    "Its bytes. A half of a surrogate pair is no UTF-8, and becomes what JSON escapes it to: \\udcff."
+    text = json.dumps(what, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
+    return text.encode("utf-8", "backslashreplace")
+
+
 def _kept(leaf):
     "The text that a leaf keeps for another process."
-    return json.dumps(leaf.save(), separators=(",", ":"), allow_nan=False)
+    return _json(leaf.save()).decode()
 
 
 def _restore(leaf, kept, cut):
@@ -559,7 +565,7 @@ _MOST = 1 << 20  # bytes of a line
 
 
 def _line(what):
-    return (json.dumps(what, separators=(",", ":"), allow_nan=False) + "\n").encode()
+    return _json(what) + b"\n"
 
 
 def _refuse_long(what):

@@ -189,7 +189,8 @@ _FUNCTIONS = {
     "run_halt": (None, c_void_p), "run_fault": (c_char_p, c_void_p, POINTER(c_uint32)),
     "run_node": (c_bool, c_void_p, c_uint32, POINTER(NodeState)), "run_value_type_at": (c_int32, c_void_p, c_uint32),
     "run_question": (c_char_p, c_void_p, c_uint32), "run_answer": (c_bool, c_void_p, c_uint32, c_char_p, c_char_p),
-    "run_get_text_at": (c_char_p, c_void_p, c_uint32), "run_set_text_at": (c_bool, c_void_p, c_uint32, c_char_p),
+    "run_get_sized_text_at": (c_bool, c_void_p, c_uint32, POINTER(Text)),
+    "run_set_sized_text_at": (c_bool, c_void_p, c_uint32, c_char_p, c_size_t),
     "run_observe": (c_bool, c_void_p, OBSERVE, c_void_p), "run_record": (c_bool, c_void_p, c_char_p),
     "run_monitor": (c_char_p, c_void_p, c_char_p), "run_groot2": (c_bool, c_void_p, c_char_p),
     "run_keep": (c_bool, c_void_p, c_char_p, POINTER(KeepOptions), POINTER(Resumed)),
@@ -232,6 +233,10 @@ def text_of(data):
     return (data or b"").decode("utf-8", "surrogateescape")
 
 
+def text_of_sized(text):
+    return text_of(ctypes.string_at(text.text, text.length))
+
+
 def bytes_of(text):
     data = text.encode("utf-8", "surrogateescape")
     if b"\0" in data:
@@ -239,7 +244,7 @@ def bytes_of(text):
     return data
 
 
-def _as_text(value):
+def as_text(value):
     return _as_str(value).encode("utf-8", "surrogateescape")
 
 
@@ -284,14 +289,14 @@ class _List(_Scalar):
         return set_(*where, (self.of * len(items))(*items), len(items))
 
     def item(self, it):
-        return text_of(ctypes.string_at(it.text, it.length)) if self.of is Text else it
+        return text_of_sized(it) if self.of is Text else it
 
 
 TYPES = {it.name: it for it in (
     _Scalar(1, "bool", c_bool, _as_bool), _Scalar(2, "int", c_int64, _as_int),
-    _Scalar(3, "double", c_double, _as_float), _String(4, "string", None, _as_text),
+    _Scalar(3, "double", c_double, _as_float), _String(4, "string", None, as_text),
     _List(5, "list of double", c_double, _as_float), _List(6, "list of int", c_int64, _as_int),
-    _List(7, "list of bool", c_bool, _as_bool), _List(8, "list of string", Text, _as_text))}
+    _List(7, "list of bool", c_bool, _as_bool), _List(8, "list of string", Text, as_text))}
 OBJECT, NUMBER, ANY = 9, 100, 101
 
 

@@ -92,8 +92,9 @@ class Entries(collections.abc.Mapping):
         library = self._tree._library
 
         def write(handle):
-            if type_ is None:
-                return library.run_set_text_at(handle, index, native.bytes_of(value))
+            if type_ in (None, native.TYPES["string"]):
+                data = native.as_text(value)
+                return library.run_set_sized_text_at(handle, index, data, len(data))
             set_ = getattr(library, f"run_set_{native.function_name(type_, 'text')}_at")
             return type_.write(set_, handle, index, value=value)
 
@@ -122,7 +123,8 @@ class Entries(collections.abc.Mapping):
 def _read_entry(library, handle, index):
     number = library.run_value_type_at(handle, index)
     if number in (native.OBJECT, 4):
-        return native.text_of(library.run_get_text_at(handle, index))
+        text = native.Text()
+        return native.text_of_sized(text) if library.run_get_sized_text_at(handle, index, text) else None
     for type_ in native.TYPES.values():
         if type_.number == number:
             return type_.read(getattr(library, f"run_get_{native.function_name(type_, 'text')}_at"), handle, index)

@@ -126,14 +126,23 @@ class Tree:
 
     def run(self, *, max_ticks=None, timeout=None):
         """Ticks once in each period until the tree completes, or until a limit. A tree that was ticked begins
-        again. The result has `result`, `reason`, `ticks`, `time_s` and `overruns`."""
-        return self._using(self._run, max_ticks or 0, timeout or 0.0)
+        again. `max_ticks` is 1 or more. `timeout` is in seconds of the run; 0 is over before the first tick. The result
+        has `result`, `reason`, `ticks`, `time_s` and `overruns`."""
+        is_count = isinstance(max_ticks, int) and not isinstance(max_ticks, bool) and 1 <= max_ticks < 2**64
+        if max_ticks is not None and not is_count:
+            raise ValueError(f"max_ticks is {max_ticks!r}, expected a whole number from 1 on")
+        if timeout is not None and not (isinstance(timeout, (int, float)) and 0 <= timeout <= 9e9):
+            raise ValueError(f"the timeout is {timeout!r}, expected seconds")
+        return self._using(self._run, max_ticks or 0, timeout)
 
     def _run(self, handle, max_ticks, timeout):
         from . import Run
         if self._ticks != self._before:
             self._restart(handle, self._seed)
-        options = native.sized(native.LoopOptions, max_ticks=max_ticks, timeout=timeout,
+        if timeout == 0:  # which is none for the library
+            return Run({"result": "stopped", "reason": "timeout", "ticks": self._ticks, "time_s": self._last, "overruns": 0},
+                       124, "")
+        options = native.sized(native.LoopOptions, max_ticks=max_ticks, timeout=timeout or 0.0,
                                virtual_clock=self._clock == "virtual", stop=self._callbacks[2])
         end = native.sized(native.LoopResult)
         self._ticks += 1  # also when it ends in an exception
