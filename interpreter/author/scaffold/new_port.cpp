@@ -72,10 +72,16 @@ Result<void> check_default(const NewPort& port) {
                    "an inout can: inout:NAME:TYPE=DEFAULT");
   }
   const ValueType type = port.type == ValueType::Number ? ValueType::Double : port.type;
-  if (parse_value(type, *port.default_text)) return {};
-  return problem(fmt::format("the default '{}' of port '{}' is no {}", *port.default_text,
-                             port.name, to_string(port.type)),
-                 fmt::format("expected {}", expected_text(port.type)));
+  const std::string& text = *port.default_text;
+  const bool is_key = text.size() > 1 && text.front() == '{' && text.back() == '}';
+  if (is_key) {
+    return problem(fmt::format("the default '{}' of port '{}' is an entry", text, port.name),
+                   "a default is a constant; a tree gives the port an entry");
+  }
+  if (parse_value(type, text)) return {};
+  return problem(
+      fmt::format("the default '{}' of port '{}' is no {}", text, port.name, to_string(port.type)),
+      fmt::format("expected {}", expected_text(port.type)));
 }
 
 }  // namespace

@@ -111,9 +111,10 @@ constexpr auto kPythonWords = std::to_array<std::string_view>(
 
 // What leaves have beside ports, and the words by which a class declares its ports.
 constexpr auto kAttributes = std::to_array<std::string_view>(
-    {"InOut",  "Output",   "behavior", "bool",       "clock",  "describe", "float", "halt",
-     "int",    "list",     "log",      "more_ports", "name",   "now",      "path",  "pause",
-     "period", "progress", "random",   "real_time",  "resume", "start",    "str",   "tick"});
+    {"InOut",  "Output", "behavior", "bool",     "clock",      "describe",  "float",
+     "halt",   "int",    "list",     "log",      "more_ports", "name",      "now",
+     "path",   "pause",  "period",   "progress", "random",     "real_time", "restore",
+     "resume", "save",   "set_pace", "start",    "str",        "tick"});
 
 bool has(const auto& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
