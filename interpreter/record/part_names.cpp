@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -23,29 +26,104 @@ std::size_t place_of_number(std::string_view path) {
   return dot == std::string_view::npos || dot <= begin ? name.size() : dot;
 }
 
-std::optional<std::uint64_t> number_in(std::string_view name, std::string_view before,
-                                       std::string_view behind) {
-  constexpr std::size_t kLeast = 4;
-  if (name.size() < before.size() + behind.size() + kLeast) return std::nullopt;
-  if (!name.starts_with(before) || !name.ends_with(behind)) return std::nullopt;
-  name.remove_prefix(before.size());
-  name.remove_suffix(behind.size());
+// The names of the files of a recording: run.jsonl, run.0001.jsonl, run.resumed-2.0001.jsonl.
+struct Names {
+  explicit Names(const std::string& recording) {
+    const std::size_t begin = recording.rfind('/') + 1, place = place_of_number(recording);
+    folder = recording.substr(0, begin);
+    stem = recording.substr(begin, place - begin);
+    ending = recording.substr(place);
+  }
+
+  std::string whole(std::uint64_t resumed) const {
+    return resumed == 0 ? folder + stem + ending
+                        : fmt::format("{}{}.resumed-{}{}", folder, stem, resumed, ending);
+  }
+
+  std::string folder, stem, ending;
+};
+
+// Takes digits from the front; nothing where there are none or too many.
+std::optional<std::uint64_t> take_number(std::string_view& text) {
   std::uint64_t number = 0;
-  const auto end = std::from_chars(name.data(), name.data() + name.size(), number);
-  const bool is_number = end.ec == std::errc() && end.ptr == name.data() + name.size();
-  return is_number ? std::optional(number) : std::nullopt;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (end.ec != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end.ptr - text.data()));
+  return number;
 }
 
-std::string resumed_name(const std::string& recording, std::size_t number) {
-  const std::size_t place = place_of_number(recording);
-  return fmt::format("{}.resumed-{}{}", recording.substr(0, place), number,
-                     recording.substr(place));
+// The number of a part in ".0001"; 0: "", the whole file.
+std::optional<std::uint64_t> part_in(std::string_view text) {
+  constexpr std::size_t kLeast = 5;
+  if (text.empty()) return 0;
+  if (text.size() < kLeast || text.front() != '.') return std::nullopt;
+  text.remove_prefix(1);
+  const auto number = take_number(text);
+  return text.empty() ? number : std::nullopt;
 }
 
-// As one file, or in parts.
-bool is_there(const std::string& recording) {
+struct Found {
+  std::uint64_t resumed = 0, part = 0;  // 0: of the first process, the whole file
+};
+
+std::optional<Found> found_in(const Names& names, std::string_view name) {
+  constexpr std::string_view kResumed = ".resumed-";
+  if (name.size() < names.stem.size() + names.ending.size()) return std::nullopt;
+  if (!name.starts_with(names.stem) || !name.ends_with(names.ending)) return std::nullopt;
+  name.remove_prefix(names.stem.size());
+  name.remove_suffix(names.ending.size());
+  Found found;
+  if (name.starts_with(kResumed)) {
+    name.remove_prefix(kResumed.size());
+    const auto resumed = take_number(name);
+    if (!resumed || *resumed == 0) return std::nullopt;
+    found.resumed = *resumed;
+  }
+  const auto part = part_in(name);
+  if (!part) return std::nullopt;
+  found.part = *part;
+  return found;
+}
+
+// In no order. A folder that cannot be read has none.
+std::vector<Found> all_files(const Names& names) {
+  std::vector<Found> all;
   std::error_code none;
-  return std::filesystem::is_regular_file(recording, none) || !parts_that_exist(recording).empty();
+  const std::string folder = names.folder.empty() ? "." : names.folder;
+  for (std::filesystem::directory_iterator it(folder, none), end; !none && it != end;
+       it.increment(none)) {
+    const auto found = found_in(names, it->path().filename().string());
+    if (found && it->is_regular_file(none)) all.push_back(*found);  // no pipe, no device
+  }
+  return all;
+}
+
+// In their order, each once.
+using Numbers = std::set<std::uint64_t>;
+
+Numbers parts_in(const std::string& recording) {
+  Numbers numbers;
+  for (const Found& it : all_files(Names(recording))) {
+    if (it.resumed == 0 && it.part > 0) numbers.insert(it.part);
+  }
+  return numbers;
+}
+
+// Adds the first of each gap.
+Numbers with_gaps(Numbers numbers) {
+  Numbers missing;
+  for (const std::uint64_t it : numbers) {
+    if (it != *numbers.rbegin() && !numbers.contains(it + 1)) missing.insert(it + 1);
+  }
+  numbers.merge(missing);
+  return numbers;
+}
+
+std::vector<std::string> named(const Numbers& numbers,
+                               const std::function<std::string(std::uint64_t)>& name) {
+  std::vector<std::string> names;
+  for (const std::uint64_t it : numbers) names.push_back(name(it));
+  return names;
 }
 
 }  // namespace
@@ -56,39 +134,39 @@ std::string part_name(const std::string& recording, std::uint64_t number) {
 }
 
 std::vector<std::string> parts_that_exist(const std::string& recording) {
-  const std::size_t place = place_of_number(recording);
-  const std::size_t begin = recording.rfind('/') + 1;
-  const std::string before = recording.substr(begin, place - begin) + ".";
-  const std::string behind = recording.substr(place);
-  const std::string folder = recording.substr(0, begin);
-  std::vector<std::pair<std::uint64_t, std::string>> found;
-  std::error_code none;  // a folder that cannot be read has none
-  for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, none), end;
-       !none && it != end; it.increment(none)) {
-    const std::string name = it->path().filename().string();
-    const auto number = number_in(name, before, behind);
-    if (number && !it->is_directory(none)) {
-      found.emplace_back(*number, folder + name);
-    }
-  }
-  std::ranges::sort(found);
-  std::vector<std::string> parts;
-  for (auto& [number, path] : found) parts.push_back(std::move(path));
-  return parts;
+  return named(parts_in(recording), [&](std::uint64_t it) { return part_name(recording, it); });
+}
+
+std::vector<std::string> parts_to_read(const std::string& recording) {
+  return named(with_gaps(parts_in(recording)),
+               [&](std::uint64_t it) { return part_name(recording, it); });
 }
 
 std::vector<std::string> resumed_recordings(const std::string& recording) {
-  std::vector<std::string> names;
-  for (std::string name = resumed_name(recording, 1); is_there(name);
-       name = resumed_name(recording, names.size() + 1)) {
-    names.push_back(std::move(name));
+  const Names names(recording);
+  Numbers numbers;
+  for (const Found& it : all_files(names)) numbers.insert(it.resumed);
+  numbers = with_gaps(std::move(numbers));
+  numbers.erase(0);
+  return named(numbers, [&](std::uint64_t it) { return names.whole(it); });
+}
+
+std::vector<std::string> files_that_exist(const std::string& recording) {
+  std::vector<std::string> recordings = resumed_recordings(recording), files;
+  recordings.insert(recordings.begin(), recording);
+  for (const std::string& it : recordings) {
+    std::error_code none;
+    if (std::filesystem::is_regular_file(it, none)) files.push_back(it);
+    std::ranges::move(parts_that_exist(it), std::back_inserter(files));
   }
-  return names;
+  return files;
 }
 
 std::string name_of_resumed(const std::string& recording) {
-  if (!is_there(recording)) return recording;
-  return resumed_name(recording, resumed_recordings(recording).size() + 1);
+  const Names names(recording);
+  std::optional<std::uint64_t> last;
+  for (const Found& it : all_files(names)) last = std::max(last.value_or(0), it.resumed);
+  return last ? names.whole(*last + 1) : recording;
 }
 
 }  // namespace lockstep::host

@@ -13,12 +13,19 @@ std::string part_name(const std::string& recording, std::uint64_t number);
 
 // Those that are there, in their order.
 std::vector<std::string> parts_that_exist(const std::string& recording);
+// The same, and the first of each gap between them: who opens it can report that.
+std::vector<std::string> parts_to_read(const std::string& recording);
 
-// Those of the runs that continued it after cuts, in their order.
+// A run that continued after cuts has a recording of each process: run.jsonl, run.resumed-1.jsonl,
+// …, each as one file or in parts. Those after the first, in their order, and the first of each gap
+// between them.
 std::vector<std::string> resumed_recordings(const std::string& recording);
 
-// For the recording of a run that continues after a cut, where the one before it is still there:
-// "run.resumed-1.jsonl", or the next number that is free. The same name where nothing is there.
+// The files of all processes that are there, in their order.
+std::vector<std::string> files_that_exist(const std::string& recording);
+
+// For the recording of a run that continues after a cut: the name behind the last one that is
+// there. The same name where nothing is there.
 std::string name_of_resumed(const std::string& recording);
 
 }  // namespace lockstep::host

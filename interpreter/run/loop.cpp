@@ -38,6 +38,7 @@ class Loop {
         wake_up_(is_real_ ? run.wake_up() : nullptr),
         deadline_(first_) {
     end_.ticks = end_.first_tick = options.before.ticks;
+    end_.last = options.before.time;
   }
 
   RunEnd run() {

@@ -186,8 +186,7 @@ TEST_CASE("a part that is missing or cut is reported, with its place") {
   std::filesystem::remove(parts.path("run.0002.jsonl"));
   const Outcome outcome = run_lockstep({"log", "csv", set});
   CHECK(outcome.code == 3);
-  CHECK(contains(outcome.err,
-                 "run.0003.jsonl:1: the next part begins with tick 2000, expected 1000"));
+  CHECK(contains(outcome.err, "cannot read its part '" + parts.path("run.0002.jsonl")));
   std::ignore = parts.file("run.0002.jsonl.zst", "");
   std::ignore = parts.file("run.0002.jsonl", "{\"lockstep_recording\":1}\n");
   CHECK(run_lockstep({"log", "csv", set}).code == 3);

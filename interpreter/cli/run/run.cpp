@@ -628,6 +628,7 @@ int run(RunCommandOptions options) {
   auto kept = keep(options, std::move(identity), runnable.tree);
   if (!kept) return kept.error();
   if (*kept != nullptr && (*kept)->continues() && !options.record.empty()) {
+    options.rotation.before = files_that_exist(options.record);
     options.record = name_of_resumed(options.record);
   }
   Diagnostics notes;

@@ -1,6 +1,7 @@
 #include "judge/measure/synchronized_measure.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lockstep::host {
 
@@ -40,6 +41,8 @@ void SynchronizedMeasure::see_children(const TickView& view) {
     falls_.see(tick, child);
   }
   spread_.take(extent);
+  if (std::exchange(joins_, false))
+    spread_at_join_ = std::max(spread_at_join_, extent.most - extent.least);
   left_out_ |= left_out > guards_;
   const double most = std::min(1.0, farthest(synchronization_, tick.limit, extent.least));
   widest_ = std::max(widest_, most - extent.least);
@@ -55,7 +58,8 @@ std::optional<double> SynchronizedMeasure::bound() const {
   const bool is_bounded = !falls_.while_ticked() && !falls_.while_held() &&
                           !falls_.rise_while_held() && !falls_.rise_before();
   if (!is_bounded || left_out_) return std::nullopt;
-  return std::min(1.0, widest_ + step_length());
+  const double bound = std::min(1.0, widest_ + step_length());
+  return spread_at_join_ <= bound ? std::optional(bound) : std::nullopt;
 }
 
 void SynchronizedMeasure::run_ended(Nanoseconds time) {

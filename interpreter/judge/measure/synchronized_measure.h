@@ -23,6 +23,7 @@ class SynchronizedMeasure {
   void join() {
     falls_.join();
     step_length_.join();
+    joins_ = true;
   }
   // The next tick follows, but leaves may have started again before it.
   void cut() { step_length_.join(); }
@@ -34,7 +35,8 @@ class SynchronizedMeasure {
   double step_length() const { return step_length_.value({}); }
   // The spread cannot be larger: what the limits allowed, and the longest step. Nothing if progress
   // fell, or rose while it was held or before the first tick that counts, or a child that was left
-  // out may have joined from far behind.
+  // out may have joined from far behind, or the children were farther apart when the run was
+  // joined.
   std::optional<double> bound() const;
   bool is_pool() const { return synchronization_ == Synchronization::Resources; }
   const FallWatch& falls() const { return falls_; }
@@ -51,6 +53,8 @@ class SynchronizedMeasure {
   Synchronization synchronization_;
   bool left_out_ = false;  // another child than a guard, in some tick
   double widest_ = 0;      // between the least progress and the farthest that was allowed
+  bool joins_ = false;     // with the next tick that counts
+  double spread_at_join_ = 0;
   FallWatch falls_;
   std::vector<HeldChild> held_;
 };

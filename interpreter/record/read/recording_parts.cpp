@@ -21,7 +21,7 @@ constexpr std::size_t kRead = 64u << 10;  // bytes
 std::vector<std::string> own_files(const std::string& recording) {
   std::error_code none;
   if (std::filesystem::exists(recording, none)) return {recording};
-  return parts_that_exist(recording);
+  return parts_to_read(recording);
 }
 
 struct Begin {
@@ -71,12 +71,13 @@ RecordingParts::RecordingParts(const std::string& recording) : recording_(record
 
 void RecordingParts::continue_with(const std::string& resumed) {
   const std::vector<std::string> files = own_files(resumed);
+  if (files.empty()) return parts_.push_back({resumed});  // it is missing: reading ends there
   const auto [tick, is_first] = begin_of(files.front());
   if (tick == 0) return;  // it continues nothing: another recording of that name
-  if (is_first) {
-    end_before(tick);
-  } else {  // files before it were deleted, and those of the process before are older still
+  if (!is_first) {  // files before it were deleted, and those of the process before are older still
     parts_.clear();
+  } else if (!parts_.empty()) {
+    end_before(tick);
   }
   for (const std::string& path : files) parts_.push_back({path});
   is_resumed_ = true;
@@ -226,7 +227,7 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
 NamedRecording::NamedRecording(const std::string& path) {
   std::error_code none;
   const bool is_whole = std::filesystem::exists(path, none);
-  if (is_whole ? !resumed_recordings(path).empty() : !parts_that_exist(path).empty()) {
+  if (!resumed_recordings(path).empty() || (!is_whole && !parts_that_exist(path).empty())) {
     parts_ = std::make_unique<RecordingParts>(path);
     all_.rdbuf(parts_.get());
   } else {

@@ -177,8 +177,17 @@ void AppendFile::begin_part(const PacketHead& head) {
   is_between_parts_ = false;
   part_size_.store(file_->size(), std::memory_order_relaxed);
   part_.store(number, std::memory_order_release);
-  if (parts_.keep > 0 && number > parts_.keep) {
-    ::unlink(part_name(path_, number - parts_.keep).c_str());
+  delete_oldest();
+}
+
+// Keeps the last files of the run, the one that is being written among them.
+void AppendFile::delete_oldest() {
+  if (parts_.keep == 0) return;
+  const std::uint64_t before = parts_.before.size();
+  for (; deleted_ + parts_.keep < before + part(); ++deleted_) {
+    const bool is_before = deleted_ < before;
+    ::unlink(is_before ? parts_.before[deleted_].c_str()
+                       : part_name(path_, deleted_ - before + 1).c_str());
   }
 }
 
@@ -202,6 +211,7 @@ void AppendFile::remove_others() {
   };
   std::ranges::for_each(resumed_recordings(path_), remove_parts);
   if (parts_.are_wanted) remove_parts(path_);
+  delete_oldest();
 }
 
 void AppendFile::take_failure() {

@@ -27,6 +27,8 @@ namespace lockstep::host {
 struct FileParts {
   bool are_wanted = false;
   std::uint64_t keep = 0;  // so many, the last ones; 0: all
+  // Those of the processes before, in their order: they count, too.
+  std::vector<std::string> before = {};
 };
 
 class AppendFile {
@@ -83,6 +85,7 @@ class AppendFile {
   void write_until_stopped();
   void write_out(Failure failure);
   void begin_part(const PacketHead& head);
+  void delete_oldest();
   void add_text(std::string_view text);
   void remove_others();
   void take_failure();
@@ -103,7 +106,8 @@ class AppendFile {
   std::atomic<std::uint64_t> part_{1}, part_size_{0};
   bool is_between_parts_ = false;
   bool has_removed_others_ = false;
-  std::string error_;  // constant once failed_ is set
+  std::uint64_t deleted_ = 0;  // files, of those before and of the own parts
+  std::string error_;          // constant once failed_ is set
   std::atomic<bool> failed_{false};
 
   std::uint64_t called_for_ = 0;  // bytes that had been pushed when the thread was last woken

@@ -41,7 +41,9 @@ FileForm form_of(const RecorderOptions& options) {
 Recorder::Recorder(const Shape& shape, RecorderOptions options)
     : options_(std::move(options)),
       file_(options_.path, queue_of(shape, options_.queue), form_of(options_),
-            {.are_wanted = options_.rotation.is_wanted(), .keep = options_.rotation.keep}),
+            {.are_wanted = options_.rotation.is_wanted(),
+             .keep = options_.rotation.keep,
+             .before = options_.rotation.before}),
       packets_(shape, options_.run),
       next_whole_(options_.whole_each),
       bytes_between_wholes_(kWholeShare * packet_size(shape.nodes.size(), 0)) {}
@@ -94,7 +96,11 @@ void Recorder::plan_whole(std::uint64_t tick) {
 
 // Likewise.
 void Recorder::plan_part(const TickReport& report) {
-  if (begins_part_ || report.tick == 0 || !wants_part(report.time)) return;
+  if (!part_began_) {  // the first tick is in the first part
+    part_began_ = report.time;
+    return;
+  }
+  if (begins_part_ || !wants_part(report.time)) return;
   begins_part_ = true;
   packets_.add_whole();
   next_whole_ = report.tick + options_.whole_each;
@@ -103,7 +109,7 @@ void Recorder::plan_part(const TickReport& report) {
 
 bool Recorder::wants_part(Nanoseconds time) {
   const Rotation& limit = options_.rotation;
-  if (limit.time.count() > 0 && time - part_began_ >= limit.time) return true;
+  if (limit.time.count() > 0 && time - *part_began_ >= limit.time) return true;
   if (limit.bytes == 0) return false;
   // Where time stands still, much may wait in the queue, and the same run gives the same files.
   if (may_wait_) {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "record/live/run_packets.h"
 #include "record/write/append_file.h"
@@ -15,9 +17,10 @@ namespace lockstep::host {
 
 // When another file is begun: with the first tick after so much. 0: never for that reason.
 struct Rotation {
-  std::uint64_t bytes = 0;  // on the disk
-  Nanoseconds time{0};      // of the run
-  std::uint64_t keep = 0;   // of the files, the last ones; 0: all
+  std::uint64_t bytes = 0;               // on the disk
+  Nanoseconds time{0};                   // of the run
+  std::uint64_t keep = 0;                // of the files, the last ones; 0: all
+  std::vector<std::string> before = {};  // files of the same run, in their order: they count, too
 
   bool is_wanted() const { return bytes > 0 || time.count() > 0; }
 };
@@ -73,9 +76,9 @@ class Recorder final : public Observer {
   std::uint64_t lost_ = 0;
   std::uint64_t gap_ = 0, gap_from_ = 0;  // the last of these, which no line reports yet
   bool error_told_ = false;
-  bool begins_part_ = false;   // with the next line
-  std::uint64_t parts_ = 1;    // whose beginnings were accepted
-  Nanoseconds part_began_{0};  // in the time of the run
+  bool begins_part_ = false;               // with the next line
+  std::uint64_t parts_ = 1;                // whose beginnings were accepted
+  std::optional<Nanoseconds> part_began_;  // in the time of the run; nothing: before its first tick
   std::uint64_t bytes_since_look_ = 0;
   // The whole state is written again after so many ticks and bytes of packets.
   std::uint64_t next_whole_, bytes_since_whole_ = 0;

@@ -13,9 +13,10 @@ using test::ScriptedRun;
 
 constexpr Nanoseconds kPeriod = std::chrono::milliseconds(100);
 
-// Runs to the end, measuring the synchronized node that stands at `place` among them.
+// Runs to the end, measuring the synchronized node that stands at `place` among them, from the tick
+// `first` on.
 struct Measured {
-  Measured(std::string_view tree, std::string_view leaves, std::size_t place = 0)
+  Measured(std::string_view tree, std::string_view leaves, std::size_t place = 0, int first = 0)
       : run(tree, leaves),
         moments(run.tree()),
         measure(std::move(measured_nodes(shape_of(run.tree())).at(place).measure)),
@@ -23,7 +24,9 @@ struct Measured {
     Nanoseconds now{0};
     for (Status status = Status::Running; status == Status::Running && ticks < 100; ++ticks) {
       status = run.tick(now);
-      measure.after_tick(parallel.read(moments.after_tick(run.ticker(), 0, now)));
+      const Moment& moment = moments.after_tick(run.ticker(), 0, now);
+      if (ticks == first && first > 0) measure.join();
+      if (ticks >= first) measure.after_tick(parallel.read(moment));
       now += kPeriod;
     }
     measure.run_ended(now);
@@ -70,6 +73,15 @@ TEST_CASE("the worked traces, measured") {
       CHECK(measured.held_seconds(child) == Approx(ticks * 0.1));
     }
   }
+}
+
+TEST_CASE("a run that is joined where a step before it was longer has no bound of the spread") {
+  const char* tree = "ParallelRelative[delta=.2](a b)";
+  const Measured whole(tree, "a+.05 b+.5,.05"), joined(tree, "a+.05 b+.5,.05", 0, 2);
+  CHECK(whole.measure.bound().value() == Approx(.2 + .5));
+  CHECK(joined.measure.largest_spread() == Approx(.4));
+  CHECK_FALSE(joined.measure.bound());
+  CHECK(Measured(tree, "a+.05 b+.1", 0, 2).measure.bound().value() == Approx(.2 + .1));
 }
 
 TEST_CASE("a node is sampled only in ticks that reach it") {

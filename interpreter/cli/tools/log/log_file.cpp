@@ -39,7 +39,7 @@ int with_file(const std::string& path, const std::function<int(std::istream&)>& 
 
 std::vector<NamedFile> files_of(const std::string& path) {
   std::vector<NamedFile> files{named_file(path)};
-  for (const std::string& it : parts_that_exist(path)) files.push_back(named_file(it));
+  for (const std::string& it : files_that_exist(path)) files.push_back(named_file(it));
   return files;
 }
 
