@@ -253,11 +253,19 @@ void NodeContext::end_range(NodeIndex first, NodeIndex last) {
       keep_results_until(node, node + 1);
     node = end_activation(node);
   }
-  if (scripts_.halted() > begin) scripts_.run_halted(begin, last);
-  if (state_.in_last_halt) return;
-  // A fault of a leaf's halt: its siblings may still run, so the nodes around them do too.
   if (state_.faulted) [[unlikely]]
-    keep_ancestors_running(state_.fault.node);
+    keep_ancestors_running();
+  if (scripts_.halted() > begin) {
+    scripts_.run_halted(begin, last);
+    if (state_.faulted) [[unlikely]]
+      keep_ancestors_running();
+  }
+}
+
+bool NodeContext::is_halted_again(NodeIndex node) const {
+  if (!state_.faulted || state_.in_last_halt) return false;
+  const NodeIndex wrong = state_.fault.node;
+  return status(node) == Status::Running || (node < wrong && wrong < nodes_[node].end);
 }
 
 void NodeContext::halt_running_children(NodeIndex node) {
@@ -298,7 +306,9 @@ void NodeContext::end_calls_in_line() {
   is_usual_.clear();
 }
 
-void NodeContext::keep_ancestors_running(NodeIndex node) {
+void NodeContext::keep_ancestors_running() {
+  if (state_.in_last_halt) return;
+  NodeIndex node = state_.fault.node;
   // The node too, if it halts its children itself and some of them run.
   for (NodeIndex child = node + 1; child < end_of(node); child = end_of(child)) {
     if (status(child) == Status::Running) state_.activity[node] = Activity::Running;

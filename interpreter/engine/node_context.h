@@ -95,6 +95,10 @@ class NodeContext : public RunView {
   // Halts the children that run; the others keep their status.
   void halt_running_children(NodeIndex node);
 
+  // Of a node whose halt met a fault: the last halt of all reaches it once more, and its script
+  // runs then.
+  bool is_halted_again(NodeIndex node) const;
+
   // True in halt_all: every running leaf is halted, whatever has failed.
   bool in_last_halt() const { return state_.in_last_halt; }
 
@@ -227,7 +231,8 @@ class NodeContext : public RunView {
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
   void end_calls_in_line();
-  void keep_ancestors_running(NodeIndex node);
+  // After a fault of a halt: siblings may still run, so the nodes around them do too.
+  void keep_ancestors_running();
   void note_failed_leaf(NodeIndex node);
   void say_fault(NodeIndex node, const std::string& message);
   bool has_failed_leaf(NodeIndex child);

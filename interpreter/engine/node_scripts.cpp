@@ -117,7 +117,7 @@ void NodeScripts::run_halted(std::size_t begin, NodeIndex next) {
   while (halted_.size() > begin && tree_.nodes[halted_.back()].end <= next) {
     const NodeIndex node = halted_.back();
     halted_.pop_back();
-    run_halted(node);
+    if (!context_.is_halted_again(node)) run_halted(node);
     const NodeWatches* const watches = context_.watches();
     if (watches != nullptr && watches->is_watched(node)) watches->watch()->after_halt(node);
   }

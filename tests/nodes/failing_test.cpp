@@ -129,6 +129,20 @@ TEST_CASE("a node whose child is at fault in a halt by a script is halted after 
   CHECK(seen == "halt;");
 }
 
+TEST_CASE("the script of a halt runs once, also where the halt meets a fault") {
+  ScriptedRun run(
+      "Sequence[memory=true](Script[code=n:=0] Script[code=m:=0] Script[code=k:=0] "
+      "Sequence(c? Parallel(d[on_halt=k+=10] Sequence[on_halt=n+=1](Inverter[on_halt=m+=1]("
+      "a[on_halt=k+=1])))))",
+      "c=SF a=R!halt d=R");
+  run.tick(Nanoseconds(0));
+  run.tick(std::chrono::milliseconds(100));
+  CHECK(run.ticker().faulted());
+  CHECK(run.text_of("n") == "1");
+  CHECK(run.text_of("m") == "1");
+  CHECK(run.text_of("k") == "11");
+}
+
 TEST_CASE("a leaf that has completed is not halted after a fault of a script around it") {
   ScriptedRun run(
       "Sequence[memory=true](Script[code=n:=0] Sequence(a[skip_if=n] Script[code=n:=2] b))",

@@ -257,11 +257,7 @@ TEST_CASE("UseResources: 'granted' has the names that a member owns, before its 
       "granted={which} on_change=exchange]"
       "(Sequence(Check[code=which=='B'||which=='A;B'] a))) resources[name=p resources=A;B;C]",
       "x=RRRR a=R");
-  const auto slot = std::ranges::find(run.tree().slots, "which", &Slot::name);
-  const auto place = static_cast<std::size_t>(slot - run.tree().slots.begin());
-  const auto which = [&] {
-    return std::get<std::string>(run.ticker().blackboard().entries[place].value());
-  };
+  const auto which = [&] { return run.text_of("which"); };
   run.set("r", std::string("any(C;B)"));
   CHECK(run.tick(Nanoseconds(0)) == Status::Running);
   CHECK(which() == "B");

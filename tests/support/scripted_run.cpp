@@ -60,13 +60,19 @@ std::string ScriptedRun::leaf_name(std::uint32_t leaf) const {
   return std::string(tree_.labels[tree_.leaves[leaf].node].name);
 }
 
-void ScriptedRun::set(std::string_view key, Value value) {
+Entry& ScriptedRun::entry(std::string_view key) {
   for (std::size_t slot = 0; slot < tree_.slots.size(); ++slot) {
-    if (tree_.slots[slot].name != key) continue;
-    board_.entries[slot].assign(std::move(value));
-    return;
+    if (tree_.slots[slot].name == key) return board_.entries[slot];
   }
   throw std::invalid_argument("no entry '" + std::string(key) + "'");
+}
+
+void ScriptedRun::set(std::string_view key, Value value) {
+  entry(key).assign(std::move(value));
+}
+
+std::string ScriptedRun::text_of(std::string_view key) {
+  return to_text(entry(key).value());
 }
 
 Status ScriptedRun::tick_root(Nanoseconds now) {

@@ -46,11 +46,14 @@ class ScriptedRun {
   Ticker& ticker() { return ticker_; }
   // Writes an entry, as a leaf would.
   void set(std::string_view key, Value value);
+  std::string text_of(std::string_view key);
   std::string leaf_name(std::uint32_t leaf) const;
   const ScriptedLeaf& leaf(std::size_t number) const { return leaves_[number]; }
   EventLog events;  // since it was last cleared
 
  private:
+  Entry& entry(std::string_view key);
+
   Tree tree_;
   Blackboard board_;
   std::uint32_t tree_tick_ = 0;
