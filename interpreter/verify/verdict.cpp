@@ -564,7 +564,7 @@ class VerdictMaker {
   // One that waits for something is also violated by a run that goes on for ever without it.
   void look_at_property(std::size_t number) {
     const std::string& name = properties_[number].name();
-    Finding finding{.name = "property/" + name, .message = {}};
+    Finding finding{.name = name_of_finding(properties_[number]), .message = {}};
     if (const auto it = found_.violated.find(number); it != found_.violated.end()) {
       finding.run = run_to(it->second);
       finding.message = fmt::format("property '{}' is violated after {}", name,
@@ -695,6 +695,10 @@ void Verdict::keep_only(std::span<const std::string> patterns) {
     left_out += goes && finding.accepted.empty();
     return goes;
   });
+}
+
+std::string name_of_finding(const Property& property) {
+  return "property/" + property.name();
 }
 
 Verdict make_verdict(const Tree& tree, const LeafModels& models,

@@ -51,6 +51,9 @@ struct VerdictOptions {
   bool paces = false;  // nodes of the tree pace: the search is of the tree without that
 };
 
+// That a property is violated: "property/close".
+std::string name_of_finding(const Property& property);
+
 Verdict make_verdict(const Tree& tree, const LeafModels& models,
                      std::span<const Property> properties, const SearchResult& found,
                      const VerdictOptions& options);

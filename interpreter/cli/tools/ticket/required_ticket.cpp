@@ -55,8 +55,11 @@ void print_ticket(const RunCommandOptions& options, const Ticket& ticket) {
   std::string text = fmt::format("ticket of {}: {}, at {} ticks per second\n",
                                  printable(ticket.made), printable(ticket.conclusion), ticket.rate);
   for (const std::string& it : ticket.properties)
-    text += fmt::format("  proved: {}\n", printable(it));
+    text += fmt::format("  {}: {}\n", ticket.is_proof ? "proved" : "holds within the limit",
+                        printable(it));
   if (!ticket.is_proof) text += "  not proved: the search had a limit\n";
+  for (const std::string& it : ticket.accepted)
+    text += fmt::format("  not proved, but accepted: {}\n", printable(it));
   for (const std::string& it : ticket.assumptions)
     text += fmt::format("  not proved, but assumed: {}\n", printable(it));
   for (const std::string& it : changes(options, ticket))
@@ -98,6 +101,8 @@ int check_ticket(RunCommandOptions& options, const Loaded& loaded) {
   }
   options.proved_leaves = ticket->leaves;
   options.proved_properties = ticket->properties;
+  options.proved_properties.insert(options.proved_properties.end(), ticket->violated.begin(),
+                                   ticket->violated.end());
   print_ticket(options, *ticket);
   return kExitSuccess;
 }

@@ -43,6 +43,8 @@ Json content_of(const Ticket& ticket) {
     all.add("cuts", ticket.cuts);
     all.add("on_resume", word_of(ticket.on_resume));
   }
+  if (!ticket.violated.empty()) all.add("violated", ticket.violated);
+  if (!ticket.accepted.empty()) all.add("accepted", ticket.accepted);
   return all;
 }
 
@@ -119,6 +121,8 @@ Result<Ticket> read_ticket(const std::string& path) {
                 {"leaves", into(ticket.leaves)},
                 {"cuts", into(ticket.cuts), kMayLack},
                 {"on_resume", read_on_resume, kMayLack},
+                {"violated", into(ticket.violated), kMayLack},
+                {"accepted", into(ticket.accepted), kMayLack},
                 {"signature", read_signature, kMayLack}});
     });
   } catch (const JsonError& error) {

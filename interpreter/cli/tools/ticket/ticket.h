@@ -22,7 +22,9 @@ struct Ticket {
   std::uint64_t cuts = 0;  // of the process in a run, at most: those are proved, too
   AfterCut on_resume = AfterCut::StartsAgain;  // of leaves that cannot continue after one
   std::string leaves;                          // the text of the leaf model; "": there was none
-  std::vector<std::string> properties;
+  std::vector<std::string> properties;         // without those that are violated
+  std::vector<std::string> violated;           // properties; the leaf model accepts that
+  std::vector<std::string> accepted;           // all findings that it accepts, a line each
   std::vector<std::string> assumptions;
   std::string key, signature;  // in hexadecimal; "": it is not signed
 };

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -359,12 +360,20 @@ class VerifyCommand {
                   .on_resume = options_.on_resume,
                   .leaves = leaves_,
                   .properties = {},
+                  .violated = {},
+                  .accepted = {},
                   .assumptions = report.verdict.assumed,
                   .key = {},
                   .signature = {}};
-    for (const Property& it : properties_)
-      ticket.properties.push_back(it.has_name() ? fmt::format("{}: {}", it.name(), it.text())
-                                                : it.text());
+    std::set<std::string> findings;
+    for (const Finding& it : report.verdict.findings) {
+      findings.insert(it.name);
+      ticket.accepted.push_back(fmt::format("{}: {} ({})", it.name, it.message, it.accepted));
+    }
+    for (const Property& it : properties_) {
+      auto& list = findings.contains(name_of_finding(it)) ? ticket.violated : ticket.properties;
+      list.push_back(it.has_name() ? fmt::format("{}: {}", it.name(), it.text()) : it.text());
+    }
     auto done = sign_ticket(ticket, options_.sign);
     if (done) done = write_ticket(options_.ticket, ticket);
     if (done) return true;
