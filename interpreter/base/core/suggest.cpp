@@ -76,6 +76,26 @@ std::size_t difference(std::size_t a, std::size_t b) {
   return a > b ? a - b : b - a;
 }
 
+constexpr bool is_letter(char c) {
+  return lower(c) >= 'a' && lower(c) <= 'z';
+}
+
+std::string without_marks(std::string_view word) {
+  std::string letters;
+  for (const char c : word)
+    if (c != '_' && c != '-') letters += lower(c);
+  return letters;
+}
+
+// "Door" of "IsDoorOpen": the letters around a place, from one that is large to the next.
+std::string_view part_around(std::string_view word, std::size_t place) {
+  const auto is_large = [](char c) { return c >= 'A' && c <= 'Z'; };
+  std::size_t begin = place, end = place + 1;
+  while (begin > 0 && !is_large(word[begin]) && is_letter(word[begin - 1])) --begin;
+  while (end < word.size() && is_letter(word[end]) && !is_large(word[end])) ++end;
+  return word.substr(begin, end - begin);
+}
+
 std::vector<std::string_view> nearest_ones(std::string_view word,
                                            std::span<const std::string_view> candidates) {
   if (word.size() > kLongestWord) return {};
@@ -102,6 +122,33 @@ bool is_typo_of(std::string_view word, std::string_view known) {
   const std::size_t limit = std::min(1 + word.size() / 8, kMostEdits);
   if (word.size() > kLongestWord || difference(word.size(), known.size()) > limit) return false;
   return EditDistance(word).to(known, limit) <= limit;
+}
+
+bool is_slip_of(std::string_view word, std::string_view known) {
+  if (without_marks(word) == without_marks(known)) return true;
+  const auto begin = static_cast<std::size_t>(
+      std::ranges::mismatch(word, known, {}, lower, lower).in1 - word.begin());
+  std::size_t same = 0;  // at the end
+  const std::size_t most = std::min(word.size(), known.size()) - begin;
+  while (same < most &&
+         lower(word[word.size() - same - 1]) == lower(known[known.size() - same - 1]))
+    ++same;
+  const std::string_view is = word.substr(begin, word.size() - same - begin);
+  const std::string_view be = known.substr(begin, known.size() - same - begin);
+  if (!std::ranges::all_of(is, is_letter) || !std::ranges::all_of(be, is_letter)) return false;
+  const bool is_swap = is.size() == 2 && be.size() == 2 && lower(is[0]) == lower(be[1]) &&
+                       lower(is[1]) == lower(be[0]);
+  const bool is_other = is.size() == 1 && be.size() == 1;
+  if (!is_swap && !is_other && is.size() + be.size() != 1) return false;
+  constexpr std::size_t kLeast = 6, kLeastPart = 3;
+  if (std::min(word.size(), known.size()) < kLeast) return false;
+  const std::string_view longer = is.empty() ? known : word;
+  const std::string_view part = part_around(longer, begin);
+  const bool is_plural = !is_other && !is_swap && lower(part.back()) == 's' &&
+                         part.data() + part.size() == longer.data() + begin + 1;
+  if (is_plural) return false;
+  return part.size() >= (is_other ? kLeast : kLeastPart) &&
+         (!is_other || part_around(known, begin).size() >= kLeast);
 }
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {

@@ -114,10 +114,19 @@ std::string_view our_name(std::string_view tag, std::string_view attribute) {
   return found ? found->attribute.ours : std::string_view();
 }
 
+std::string hint_of_nav(std::string_view tag) {
+  const NodePair* pair = pair_of(tag);
+  if (pair == nullptr || pair->remark != kOfNav) return {};
+  return worded("the plugin nav has it: give --plugin nav, or name it with <plugin name=\"nav\"/>",
+                std::string(kOfNav));
+}
+
 }  // namespace
 
-constinit const ForeignHints kHints{
-    .for_node = hint_for_node, .for_attribute = hint_for_attribute, .our_name = our_name};
+constinit const ForeignHints kHints{.for_node = hint_for_node,
+                                    .for_attribute = hint_for_attribute,
+                                    .our_name = our_name,
+                                    .of_plugin = hint_of_nav};
 
 bool needs_hint(const NodePair& pair, std::string_view tag) {
   return tag != pair.ours || !pair.attributes.empty() || !pair.words.empty();

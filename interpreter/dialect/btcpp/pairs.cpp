@@ -74,7 +74,6 @@ constexpr std::string_view kAgain = "after a Failure it begins with the first ch
 constexpr std::string_view kCaseList = "its cases are one list: cases=\"dock;drive\"";
 constexpr std::string_view kTry =
     "write <Fallback memory=\"true\"> of a Sequence of the others and <ForceFailure> of the last";
-constexpr std::string_view kNav = "the plugin nav has it: add <plugin name=\"nav\"/>";
 constexpr std::string_view kAsk = "put a <Check> before it, in a Sequence";
 constexpr std::string_view kAskNot = "put a condition before it, in a Fallback";
 constexpr std::string_view kCompare = "write <Check code=\"key == 'value'\"/>";
@@ -173,16 +172,16 @@ constexpr NodePair kSimilar[] = {
     {.theirs = "WasEntryUpdated", .remark = kWriter},
     {.theirs = "TreeNodeModel", .remark = kModel},
     // The nodes of Nav2.
-    {.theirs = "RecoveryNode", .remark = kNav},
-    {.theirs = "PipelineSequence", .remark = kNav},
-    {.theirs = "RoundRobin", .remark = kNav},
-    {.theirs = "RateController", .remark = kNav},
-    {.theirs = "SpeedController", .remark = kNav},
-    {.theirs = "DistanceController", .remark = kNav},
-    {.theirs = "GoalUpdatedController", .remark = kNav},
-    {.theirs = "GoalUpdated", .remark = kNav},
-    {.theirs = "GlobalUpdatedGoal", .remark = kNav},
-    {.theirs = "PathExpiringTimer", .remark = kNav},
+    {.theirs = "RecoveryNode", .remark = kOfNav},
+    {.theirs = "PipelineSequence", .remark = kOfNav},
+    {.theirs = "RoundRobin", .remark = kOfNav},
+    {.theirs = "RateController", .remark = kOfNav},
+    {.theirs = "SpeedController", .remark = kOfNav},
+    {.theirs = "DistanceController", .remark = kOfNav},
+    {.theirs = "GoalUpdatedController", .remark = kOfNav},
+    {.theirs = "GoalUpdated", .remark = kOfNav},
+    {.theirs = "GlobalUpdatedGoal", .remark = kOfNav},
+    {.theirs = "PathExpiringTimer", .remark = kOfNav},
     {.theirs = "NonblockingSequence",
      .ours = "Parallel",
      .remark = "actions that succeeded are not ticked again"},

@@ -52,6 +52,9 @@ struct Difference {
   When when = When::Always;
 };
 
+// The remark of the nodes of Nav2 that a plugin of lockstep has.
+inline constexpr std::string_view kOfNav = "the plugin nav has it: add <plugin name=\"nav\"/>";
+
 struct NodePair {
   std::string_view theirs;
   std::string_view ours = {};  // "": none

@@ -14,6 +14,7 @@
 #include "tree/check/declared_groups.h"
 #include "tree/check/document_order.h"
 #include "tree/check/element_type.h"
+#include "tree/check/foreign_hints.h"
 #include "tree/check/named_files.h"
 #include "tree/check/node_check.h"
 #include "tree/check/other_tools.h"
@@ -361,7 +362,8 @@ class TreeReader {
     if (const auto gone = hint_for_gone(id); !gone.empty()) return std::string(gone);
     if (is_tree(id))
       return fmt::format("to use the tree '{0}' write <SubTree ID=\"{0}\"/>", brief(id));
-    std::string hint = hint_for_other_tools(id, catalog_);
+    std::string hint = hint_of_plugin(id);
+    if (hint.empty()) hint = hint_for_other_tools(id, catalog_);
     if (hint.empty()) hint = did_you_mean(id, catalog_.ids());
     if (!hint.empty()) return hint;
     return fmt::format("if a plugin provides it, {}, or name it with <plugin name=\"…\"/>",

@@ -24,6 +24,10 @@ std::string foreign_node_hint(std::string_view tag, std::span<const Attribute> a
   return ask_languages([&](const ForeignHints& it) { return it.for_node(tag, attributes); });
 }
 
+std::string hint_of_plugin(std::string_view tag) {
+  return ask_languages([&](const ForeignHints& it) { return it.of_plugin(tag); });
+}
+
 std::string foreign_attribute_hint(std::string_view tag, const Attribute& attribute) {
   return ask_languages([&](const ForeignHints& it) { return it.for_attribute(tag, attribute); });
 }

@@ -18,6 +18,7 @@
 #include "base/core/typo.h"
 #include "base/core/value_types.h"
 #include "base/core/wording.h"
+#include "tree/check/foreign_hints.h"
 #include "tree/check/node_check.h"
 #include "tree/check/other_tools.h"
 #include "tree/check/references.h"
@@ -336,8 +337,8 @@ class Builder {
   }
 
   void tell(std::string_view id, Place place, bool has_model, bool is_guessed) const {
-    std::string hint =
-        has_model ? "the model in the file is used as a hint" : hint_for_other_tools(id, catalog_);
+    std::string hint = has_model ? "the model in the file is used as a hint" : hint_of_plugin(id);
+    if (hint.empty()) hint = hint_for_other_tools(id, catalog_);
     const std::string near = hint.empty() ? did_you_mean(id, known_ids_near(id)) : "";
     if (hint.empty()) hint = near;
     const Severity severity = near.empty() ? Severity::Note : Severity::Warning;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/core/identifier.h"
+#include "base/core/typo.h"
 #include "language/document/byte_order_mark.h"
 #include "language/document/value_text.h"
 #include "tree/mend/element_type.h"
@@ -138,7 +140,7 @@ class Mending {
         add_end_tag(*found, right, edit);
         const auto there = tree_.text.substr(found->begin, found->end - found->begin);
         add(fmt::format("Replace '{}' by '{}'", there, right), std::move(edit),
-            is_only ? Sure::Yes : Sure::No);
+            is_only && is_slip_of(there, right) ? Sure::Yes : Sure::No);
         break;
       }
     }
@@ -355,8 +357,29 @@ class Mending {
       edit.insert(place_.begin, fmt::format("</{}>", open));
       return add(fmt::format("Close <{}>", open), std::move(edit), Sure::No);
     }
+    if (is_known(closing) && !is_known(open)) rename_start(open, closing);
     edit.replace(place_.begin + 2, place_.begin + there.size(), std::string(open));
-    add(fmt::format("Replace '</{}>' by '</{}>'", closing, open), std::move(edit), Sure::Yes);
+    add(fmt::format("Replace '</{}>' by '</{}>'", closing, open), std::move(edit),
+        is_known(open) && !is_known(closing) ? Sure::Yes : Sure::No);
+  }
+
+  bool is_known(std::string_view tag) const {
+    constexpr std::string_view kAroundNodes[] = {"root", "BehaviorTree", "TreeNodesModel"};
+    return catalog_.find(tag) != nullptr ||
+           std::ranges::find(kAroundNodes, tag) != std::end(kAroundNodes);
+  }
+
+  // "<Inverer>" that "</Inverter>" closes.
+  void rename_start(std::string_view wrong, std::string_view right) {
+    const TolerantElement* open = nullptr;
+    for (const TolerantElement& it : tree_.elements)
+      if (it.tag == wrong && it.begin < place_.begin && it.tag_end <= place_.begin) open = &it;
+    if (open == nullptr) return;
+    const ByteRange name = range_of(tree_, open->tag);
+    TextEdit edit;
+    edit.replace(name.begin, name.end, std::string(right));
+    add(fmt::format("Replace '<{}>' by '<{}>'", wrong, right), std::move(edit),
+        is_slip_of(wrong, right) ? Sure::Yes : Sure::No);
   }
 
   void write_category() {
