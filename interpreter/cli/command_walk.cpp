@@ -24,7 +24,8 @@ std::size_t follow_option(CommandWalk& walk, const std::string& word) {
     walk.unknown_at = walk.command;
   }
   const bool needs_value = option != nullptr && takes_value(*option);
-  if (needs_value && word.ends_with('=') && walk.empty_option.empty()) walk.empty_option = name;
+  const bool is_empty = word.size() == name.size() + 1;  // "--name="
+  if (needs_value && is_empty && walk.empty_option.empty()) walk.empty_option = name;
   walk.open = needs_value && !has_value ? option : nullptr;
   return walk.open != nullptr ? static_cast<std::size_t>(option->get_items_expected_min()) : 0;
 }
@@ -55,8 +56,10 @@ CommandWalk follow(const CLI::App& program, std::span<const std::string> words) 
     if (!options_end && word.size() > 1 && word[0] == '-') {
       options_end = word == "--";
       if (options_end) continue;
-      i += follow_option(walk, word);
-      if (i >= words.size()) walk.empty_option = word;
+      for (std::size_t values = follow_option(walk, word); values > 0; --values) {
+        const bool has_one = ++i < words.size() && !words[i].empty();
+        if (!has_one && walk.empty_option.empty()) walk.empty_option = word;
+      }
       if (i < words.size()) walk.open = nullptr;
     } else if (const CLI::App* command = find_subcommand(*walk.command, word)) {
       walk.command = command;

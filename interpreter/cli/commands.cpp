@@ -99,6 +99,7 @@ std::optional<int> run_words(const std::vector<std::string>& words, Program::Opt
   if (const auto error = find_unknown_command(program.app(), words)) {
     return may_explain ? std::optional(refuse(*error)) : std::nullopt;
   }
+  if (const auto error = find_empty_option(program.app(), words)) return refuse(*error);
   try {
     parse(program.app(), words);
   } catch (const CLI::Success& success) {  // --help, --version

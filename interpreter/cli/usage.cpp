@@ -144,6 +144,14 @@ std::optional<UsageError> find_unknown_command(const CLI::App& program,
   return unknown_command(walk);
 }
 
+std::optional<UsageError> find_empty_option(const CLI::App& program,
+                                            std::span<const std::string> words) {
+  const CommandWalk walk = follow(program, words);
+  if (walk.empty_option.empty() || !walk.unknown_option.empty()) return std::nullopt;
+  return UsageError{fmt::format("'{}' needs a value", brief(walk.empty_option)),
+                    with_help(*walk.command, "")};
+}
+
 UsageError explain(const CLI::App& program, std::span<const std::string> words,
                    const CLI::ParseError& error) {
   const CommandWalk walk = follow(program, words);

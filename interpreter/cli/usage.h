@@ -22,6 +22,12 @@ struct UsageError {
 std::optional<UsageError> find_unknown_command(const CLI::App& program,
                                                std::span<const std::string> words);
 
+// An option without a value: as "--record=", for which CLI11 would take the next word, or with an
+// empty one, as a script has it whose variable is not set: no command may take that for the option
+// that is absent.
+std::optional<UsageError> find_empty_option(const CLI::App& program,
+                                            std::span<const std::string> words);
+
 // Why CLI11 refused them.
 UsageError explain(const CLI::App& program, std::span<const std::string> words,
                    const CLI::ParseError& error);
