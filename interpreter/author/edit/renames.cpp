@@ -133,6 +133,15 @@ std::ptrdiff_t count_uses(const ProjectTexts& texts, ElementAt tree, std::string
   return std::ranges::count(entry_uses(texts, tree), key, &EntryUse::key);
 }
 
+// Whether a SubTree of this tree binds the key, also where the tree does not use it.
+bool is_bound(const ProjectTexts& texts, std::string_view tree, std::string_view key) {
+  bool is_bound = false;
+  texts.for_each_element([&](ElementAt at) {
+    is_bound |= texts.is_sub_tree(at) && texts.tree_of(at) == tree && binding_of(texts, at, key);
+  });
+  return is_bound;
+}
+
 // Whether a SubTree whose tree an argument chooses passes the entry on, into the tree or out of it.
 bool is_bound_by_choice(const ProjectTexts& texts, ElementAt tree, std::string_view key) {
   bool is_bound = false;
@@ -226,6 +235,11 @@ Result<ProjectEdit> rename_entry(const ProjectTexts& texts, std::string_view tre
     return problem(
         fmt::format("the tree '{}' has an entry '{}' already", brief(tree), brief(new_key)),
         "the two would become one");
+  }
+  if (is_bound(texts, tree, new_key)) {
+    return problem(
+        fmt::format("a SubTree of '{}' has an attribute '{}' already", brief(tree), brief(new_key)),
+        "the entry would have its value");
   }
   rename_uses(edit, texts, *at_tree, key, new_key);
   for (const ElementAt port : texts.modeled_ports(tree))

@@ -12,6 +12,7 @@
 #include "author/server/features/names.h"
 #include "author/server/features/trial.h"
 #include "author/server/features/workspace_edit.h"
+#include "base/core/identifier.h"
 #include "base/core/wording.h"
 #include "language/document/byte_order_mark.h"
 
@@ -61,11 +62,20 @@ class FileEdits {
   std::map<std::string, std::string> texts_;
 };
 
+bool is_bound_by_sub_tree(const Names& names, std::string_view key) {
+  return std::ranges::any_of(names.texts(), [&](const ProjectText& text) {
+    return std::ranges::any_of(text.tree->elements, [&](const TolerantElement& it) {
+      return is_sub_tree(it.tag) &&
+             std::ranges::count(text.tree->attributes_of(it), key, &TolerantAttribute::name) > 0;
+    });
+  });
+}
+
 // A group has no name that something outside of it could have too.
 Json rename_group(const Question& question, const Names& names, const NamePlace& place) {
   const std::string& new_name = question.params.new_name;
-  if (new_name.empty() || new_name.find_first_of(" \t\r\n\"'<>&{}$/;,=.") != new_name.npos)
-    refuse(fmt::format("'{}' cannot be a name here", brief(new_name)));
+  if (!is_identifier(new_name))
+    refuse(fmt::format("'{}' cannot be a name here: it is {}", brief(new_name), kIdentifierRule));
   if (place.declared == nullptr) refuse(fmt::format("nothing declares '{}'", brief(place.name)));
   const ProjectText& home = *names.text_of(*place.declared);
   const std::size_t begin = place.declared->begin;
@@ -79,6 +89,9 @@ Json rename_group(const Question& question, const Names& names, const NamePlace&
     if (same_place == all.places().end()) continue;
     if (new_name != same_place->name && all.has_group(*same_place->element, new_name))
       refuse(fmt::format("there is a group '{}' already", brief(new_name)));
+    if (new_name != same_place->name && is_bound_by_sub_tree(all, new_name))
+      refuse(fmt::format("a SubTree has an attribute '{}': its tree would mean that one",
+                         brief(new_name)));
     for (const NamePlace* use : all.same_as(*same_place)) {
       const std::size_t mark = byte_order_mark(use->text->tree->text).size();
       TextEdit edit;

@@ -52,7 +52,7 @@ Site site_at(const TolerantTree& tree, std::size_t byte) {
   if (element != nullptr && element->has_in_tag(byte)) return in_tag(tree, *element, byte);
   const auto sign = tree.text.substr(0, byte).find_last_of("<>");
   if (sign != std::string_view::npos && tree.text[sign] == '<') {
-    if (tree.text.substr(sign).starts_with("</"))
+    if (tree.text.substr(sign, byte - sign).starts_with("</"))
       return {Site::Part::EndTag, tree.at(sign), nullptr, {sign + 2, byte}};
     return {};
   }

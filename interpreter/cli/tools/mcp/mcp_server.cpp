@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <new>
+#include <optional>
 
 #include "base/core/suggest.h"
 #include "base/core/version.h"
@@ -40,13 +42,21 @@ struct CallParams {
   std::optional<Json> token = {};
 };
 
+std::optional<ToolNumber> tool_number(JsonValue value) {
+  std::uint64_t count = 0;
+  double number = 0;
+  if (value.get(count)) return ToolNumber{fmt::format("{}", count)};
+  if (!value.get(number)) return std::nullopt;
+  const bool is_whole = std::floor(number) == number && std::abs(number) < 0x1p64;
+  return ToolNumber{is_whole ? fmt::format("{:.0f}", number) : fmt::format("{}", number)};
+}
+
 ToolValue tool_value(JsonValue value) {
   std::string_view text;
-  double number = 0;
   bool flag = false;
   if (value.get(text)) return std::string(text);
   if (value.get(flag)) return flag;
-  if (value.get(number)) return number;
+  if (auto number = tool_number(value)) return std::move(*number);
   if (!value.is_list()) throw JsonError("an argument is a string, a number, true, false or a list");
   std::vector<std::string> list;
   value.each_item([&](JsonValue item) { list.emplace_back(item.text()); });

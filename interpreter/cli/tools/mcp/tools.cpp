@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "base/core/suggest.h"
@@ -271,10 +270,8 @@ class CommandBuilder {
       return {};
     }
     if (input.kind == Kind::Number) {
-      const double* const number = std::get_if<double>(&value);
-      if (number == nullptr) return wrong(input, "a number");
-      const bool is_whole = std::floor(*number) == *number && std::abs(*number) < 1e15;
-      return put(input, is_whole ? fmt::format("{:.0f}", *number) : fmt::format("{}", *number));
+      const ToolNumber* const number = std::get_if<ToolNumber>(&value);
+      return number == nullptr ? wrong(input, "a number") : put(input, number->text);
     }
     if (input.kind == Kind::Files || input.kind == Kind::Words) {
       const auto* const list = std::get_if<std::vector<std::string>>(&value);

@@ -49,7 +49,11 @@ std::span<const Tool> tools();
 // As `tools/list` has it.
 Json json_of(const Tool& tool);
 
-using ToolValue = std::variant<std::string, double, bool, std::vector<std::string>>;
+// As the command line takes it: a seed has more digits than a double.
+struct ToolNumber {
+  std::string text;
+};
+using ToolValue = std::variant<std::string, ToolNumber, bool, std::vector<std::string>>;
 using ToolValues = std::map<std::string, ToolValue, std::less<>>;
 
 // Where the calls of a server find and leave files.
