@@ -117,8 +117,10 @@ std::string_view our_name(std::string_view tag, std::string_view attribute) {
 std::string hint_of_nav(std::string_view tag) {
   const NodePair* pair = pair_of(tag);
   if (pair == nullptr || pair->remark != kOfNav) return {};
-  return worded("the plugin nav has it: give --plugin nav, or name it with <plugin name=\"nav\"/>",
-                std::string(kOfNav));
+  return worded(
+      std::string(
+          "the plugin nav has it: give --plugin nav, or name it with <plugin name=\"nav\"/>"),
+      std::string(kOfNav));
 }
 
 }  // namespace
