@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
+
+#include "base/compression/decompressed.h"
+#include "base/json/reader.h"
+#include "record/lines.h"
 
 namespace lockstep::host {
 namespace {
@@ -101,12 +106,56 @@ std::vector<Found> all_files(const Names& names) {
 // In their order, each once.
 using Numbers = std::set<std::uint64_t>;
 
-Numbers parts_in(const std::string& recording) {
+enum class Content : unsigned char { Part, Other, Unknown };
+
+// The chunks of such a file are compressed, so only the library that wrote it is looked at.
+Content content_of_mcap(const std::string& path, std::uint64_t number) {
+  constexpr std::uint64_t kMost = 100'000;  // of parts; a date has more digits
+  constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+  char begin[64] = "";
+  std::ifstream(path, std::ios::binary).read(begin, sizeof begin - 1);
+  const std::string_view text(begin, sizeof begin);
+  const bool is_ours = text.starts_with(kMagic) && text.find("lockstep") != std::string_view::npos;
+  return is_ours && number < kMost ? Content::Part : Content::Other;
+}
+
+// A part behind the first one has its first tick in its header.
+Content content_of(const std::string& path, std::uint64_t number) {
+  if (number == 1) return Content::Part;
+  if (path.ends_with(".mcap")) return content_of_mcap(path, number);
+  bool has_first_tick = false;
+  try {
+    DecompressedFile file(path);
+    std::string header;
+    if (!std::getline(file.text(), header)) return Content::Unknown;
+    JsonReader().read(header, [&](JsonObject all) {
+      all.each_field([&](std::string_view name, JsonValue) {
+        has_first_tick |= name == lines::kHeader["first_tick"];
+      });
+    });
+  } catch (const JsonError&) {
+    return Content::Unknown;
+  } catch (const CannotDecompress&) {
+    return Content::Unknown;
+  }
+  return has_first_tick ? Content::Part : Content::Other;
+}
+
+Numbers parts_in(const std::string& recording, const std::function<bool(Content)>& is_wanted) {
   Numbers numbers;
   for (const Found& it : all_files(Names(recording))) {
-    if (it.resumed == 0 && it.part > 0) numbers.insert(it.part);
+    const bool is_named = it.resumed == 0 && it.part > 0;
+    if (is_named && is_wanted(content_of(part_name(recording, it.part), it.part)))
+      numbers.insert(it.part);
   }
   return numbers;
+}
+
+bool is_part(Content content) {
+  return content == Content::Part;
+}
+bool may_be_part(Content content) {
+  return content != Content::Other;
 }
 
 // Adds the first of each gap.
@@ -134,11 +183,12 @@ std::string part_name(const std::string& recording, std::uint64_t number) {
 }
 
 std::vector<std::string> parts_that_exist(const std::string& recording) {
-  return named(parts_in(recording), [&](std::uint64_t it) { return part_name(recording, it); });
+  return named(parts_in(recording, is_part),
+               [&](std::uint64_t it) { return part_name(recording, it); });
 }
 
 std::vector<std::string> parts_to_read(const std::string& recording) {
-  return named(with_gaps(parts_in(recording)),
+  return named(with_gaps(parts_in(recording, may_be_part)),
                [&](std::uint64_t it) { return part_name(recording, it); });
 }
 

@@ -152,6 +152,28 @@ TEST_CASE("a recording replaces all of an earlier one with its name, and nothing
   CHECK(files_in(parts).size() == others.size() + 1);
 }
 
+TEST_CASE("a recording of a day, and what is no recording, is no part of another one") {
+  const TemporaryDirectory days;
+  for (const char* const name : {"run.20261128.jsonl", "run.2026.mcap", "run.20261128.mcap"})
+    record(days, name);
+  for (const char* const name : {"run.2026.jsonl", "run.2027.mcap"})
+    std::ignore = days.file(name, "mine");
+  const auto before = files_in(days);
+  for (const std::string name : {"run.jsonl", "run.mcap"}) {
+    record(days, name, {"--record-rotate", "10s"});
+    CHECK(files_in(days).size() > before.size());
+    record(days, name, {"--record-rotate", "1h"});
+    std::filesystem::remove(days.path(name == "run.jsonl" ? "run.0001.jsonl" : "run.0001.mcap"));
+  }
+  std::vector<std::string> kept = before;
+  std::erase(kept, "run.2026.mcap");  // it is as a part would be
+  CHECK(files_in(days) == kept);
+  std::filesystem::remove(days.path("run.2026.jsonl"));
+  const Outcome none = run_lockstep({"log", "info", days.path("run.jsonl")});
+  CHECK(contains(none.err, "cannot read"));
+  CHECK(contains(none.err, "No such file"));
+}
+
 TEST_CASE("on the virtual clock, a run has the same parts each time") {
   const TemporaryDirectory parts;
   for (const std::string name : {"a.jsonl", "b.jsonl"}) {

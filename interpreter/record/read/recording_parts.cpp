@@ -154,7 +154,7 @@ bool RecordingParts::knows_next() {
   if (at_ + 1 < parts_.size()) return true;
   if (is_resumed_) return false;
   // The first parts of a run that goes on may be deleted.
-  for (std::string& it : parts_that_exist(recording_)) {
+  for (std::string& it : parts_to_read(recording_)) {
     const std::string& last = parts_.back().path;
     const bool is_later = it.size() > last.size() || (it.size() == last.size() && it > last);
     if (is_later) parts_.push_back({std::move(it)});
@@ -227,7 +227,7 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
 NamedRecording::NamedRecording(const std::string& path) {
   std::error_code none;
   const bool is_whole = std::filesystem::exists(path, none);
-  if (!resumed_recordings(path).empty() || (!is_whole && !parts_that_exist(path).empty())) {
+  if (!resumed_recordings(path).empty() || (!is_whole && !parts_to_read(path).empty())) {
     parts_ = std::make_unique<RecordingParts>(path);
     all_.rdbuf(parts_.get());
   } else {
