@@ -110,15 +110,18 @@ TEST_CASE("nohup is respected, and Ctrl-C counts where a shell has it ignored") 
 
 TEST_CASE("a file that may not grow is an error of the recording, not the end of the run") {
   const TemporaryDirectory directory;
-  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.000005\"/>"));
-  // More ticks than the queue to the disk takes, so that the run sees the error.
-  const auto limited = [&](const std::string& policy) {
+  const std::string many = directory.file("many.xml", tree_text("<Advance step=\"0.000005\"/>"));
+  const std::string few = directory.file("few.xml", tree_text("<Advance step=\"0.001\"/>"));
+  const auto limited = [&](const std::string& tree, const std::string& policy) {
     return run({.arguments = {"-c", "ulimit -f 8; exec \"$@\"", "sh",
                               LOCKSTEP_BINARY_DIR "/lockstep", "run", tree, "--clock", "virtual",
                               "--record", directory.path("run.jsonl"), "--on-record-error", policy},
                 .program = "/bin/bash"});
   };
-  const Outcome going_on = limited("go-on"), stopped = limited("stop");
+  // More ticks than the queue to the disk takes, so that the run sees the error.
+  const Outcome going_on = limited(many, "go-on"), stopped = limited(many, "stop");
+  CHECK(limited(few, "go-on").code == 0);
+  CHECK(limited(few, "stop").code == 8);  // which is known at its end only
   CHECK(going_on.code == 0);
   CHECK(contains(going_on.err, "File too large"));
   CHECK(stopped.code == 8);

@@ -351,10 +351,20 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return recorder;
   }
 
-  // A violation in the last tick, or at the end, counts too.
+  // A recording or a checkpoint that must be complete, and cannot be written.
+  bool lacks_what_is_required() const {
+    return (recorder_ && options_.stop_on_record_error && recorder_->failed()) ||
+           (kept_ && options_.checkpoint_required && kept_->has_failed());
+  }
+
+  // Also what was found in the last tick or at the end.
   int code_of(const RunEnd& end) const {
-    const bool counts = options_.ends_on_violation && properties_ && properties_->is_violated();
-    return counts && end.reason == StopReason::Completed ? kExitProperty : exit_code_of(end);
+    const bool is_violated =
+        options_.ends_on_violation && properties_ && properties_->is_violated();
+    const bool is_limit = end.reason == StopReason::Timeout || end.reason == StopReason::MaxTicks;
+    if (end.reason == StopReason::Completed && is_violated) return kExitProperty;
+    const bool is_in_order = end.reason == StopReason::Completed || is_limit;
+    return is_in_order && lacks_what_is_required() ? kExitRecording : exit_code_of(end);
   }
 
   // A warning for those who record and watch.
@@ -412,13 +422,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       loop.checkpoints = kept_->writer();
       loop.before = kept_->before();
     }
-    const bool records = recorder_ && options_.stop_on_record_error;
-    const bool keeps = kept_ && options_.checkpoint_required;
-    if (records || keeps) {
-      loop.writing_failed = [this, records, keeps] {
-        return (records && recorder_->failed()) || (keeps && kept_->has_failed());
-      };
-    }
+    if (options_.stop_on_record_error || options_.checkpoint_required)
+      loop.writing_failed = [this] { return lacks_what_is_required(); };
     return loop;
   }
 

@@ -45,7 +45,7 @@ int diff(const LogDiffOptions& options, RecordingReader& a, RecordingReader& b) 
   }
   const int read = report_ends(a, b);
   const int result = diff.same() ? kExitSuccess : kExitFailure;
-  return first_failure(read, first_failure(written, result));
+  return first_failure(read, first_failure(result, written));
 }
 
 int diff(const LogDiffOptions& options) {
