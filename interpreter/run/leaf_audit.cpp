@@ -80,7 +80,8 @@ LeafAudit::LeafAudit(const Shape& shape, const Tree& tree, const LeafModels& mod
                                          .while_held = reaches_while_held(model)});
     for (const LeafModel::Output& output : model.outputs) {
       const auto entry = entry_of.find(output.slot);
-      if (entry == entry_of.end()) continue;
+      // Where a script of the node writes it too, nothing is known of the leaf.
+      if (entry == entry_of.end() || assigns_around(tree, leaf->node, output.slot)) continue;
       it.outputs.push_back(
           {.of = &output, .entry = entry->second, .whole = whole_numbers(output.values)});
     }

@@ -2,6 +2,8 @@
 // has not been ticked.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/tree.h"
 #include "language/expression/expression.h"
 
@@ -20,6 +22,13 @@ inline bool assigns(const Tree& tree, std::uint32_t script, std::uint32_t slot) 
       return true;
   }
   return false;
+}
+
+// The same of any script around the ticks of a node.
+inline bool assigns_around(const Tree& tree, NodeIndex node, std::uint32_t slot) {
+  if (!has_script(tree, node)) return false;
+  const auto& scripts = tree.hooked[tree.hooks[node]].scripts;
+  return std::ranges::any_of(scripts, [&](std::uint32_t it) { return assigns(tree, it, slot); });
 }
 
 // Whether a script around its ticks can have given the node this result; `begins`: it was not

@@ -316,3 +316,19 @@ TEST_CASE("leaves that do by chance what a model allows never break it") {
   }
   CHECK(runs >= 100);
 }
+
+TEST_CASE("what a script of its own node adds to an output is not blamed on a leaf") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="M">
+<Sequence memory="true"><Script code="x := 0"/><Action ID="A" o="{x}" on_success="x += 10"/>
+<Check code="x >= 10"/><Wait seconds="0.2"/></Sequence></BehaviorTree>
+<TreeNodesModel><Action ID="A"><output_port name="o" type="int"/></Action></TreeNodesModel></root>
+)");
+  const std::string model = directory.file(
+      "t.leaves.xml",
+      R"(<leaves lockstep="1"><leaf of="A" out.o="0|1" result="success"/></leaves>)");
+  const Outcome outcome = run_lockstep({"run", tree, "--mock", "--leaves", model, "--watch-leaves",
+                                        model, "--clock", "virtual", "--view", "none"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+}
