@@ -121,13 +121,17 @@ class FailureTable {
     for (const StatusRow& it : kStatuses)
       if (const auto& first = found.results[index_of(it.status)])
         row.results[index_of(it.status)] = first->ticks;
-    for (const auto& [property, unused] : found.violated) row.violated.push_back(property);
+    for (std::size_t i = 0; i < properties_.size(); ++i) {
+      if (std::ranges::count(verdict.findings, name_of_finding(properties_[i]), &Finding::name) > 0)
+        row.violated.push_back(i);
+    }
+    row.halted = halted(models, found);
+    if (!row.is_complete) return row;  // what a node never does is not known
     row.handled_by = handler(row.cases.front(), found.coverage);
     for (const LeafNode& leaf : tree_.leaves) {
       if (usual_.coverage.was_ticked(leaf.node) && !found.coverage.was_ticked(leaf.node))
         row.not_tried.push_back(leaf.node);
     }
-    row.halted = halted(models, found);
     return row;
   }
 

@@ -36,9 +36,10 @@ struct FailureRow {
   bool faults = false;       // the run ends so, without --on-fault fail
   // By status: the tree may have this result, first after so many ticks.
   std::array<std::optional<std::uint32_t>, kStatuses.size()> results = {};
-  // The lowest node around the leaf that never fails: what is above does not notice.
+  std::vector<NodeIndex> halted = {};  // leaves, in some run
+  // Of a complete search. The lowest node around the leaf that never fails: what is above does not
+  // notice.
   std::optional<NodeIndex> handled_by = {};
-  std::vector<NodeIndex> halted = {};      // leaves, in some run
   std::vector<NodeIndex> not_tried = {};   // leaves that are ticked where nothing fails
   std::vector<std::size_t> violated = {};  // properties, by their place
 

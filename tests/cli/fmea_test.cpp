@@ -68,6 +68,30 @@ TEST_CASE("the table of failures has properties, and pairs on request") {
   CHECK(pairs.size() == singles.size() + 6 * n * n);
 }
 
+TEST_CASE("a property that waits is violated in the table where the tree waits for ever") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "t.xml",
+      "<root lockstep=\"1\"><BehaviorTree ID=\"M\"><Sequence memory=\"true\"><A/><B/>"
+      "</Sequence></BehaviorTree></root>\n");
+  const std::string model = directory.file(
+      "t.leaves.xml",
+      "<leaves lockstep=\"1\"><leaf path=\"*\" ticks=\"3..5\" result=\"success\"/></leaves>\n");
+  std::vector<std::string> call{"verify", tree, "--mock", "--leaves", model, "--fmea"};
+  for (const std::string property :
+       {"p: sometimes B.ticked", "q: A.running leads to A.done", "r: A.running until B.running"})
+    call.insert(call.end(), {"--property", property});
+  const Outcome whole = run_lockstep(call);
+  CHECK(whole.code == 0);
+  CHECK(contains(whole.out,
+                 "| M/Sequence/A | never ends | may not end |  |  | M/Sequence/B | p; q; r |"));
+  // What a search with a limit has not seen is no fact.
+  call.insert(call.end(), {"--states", "12"});
+  const Outcome limited = run_lockstep(call);
+  CHECK(limited.code == 124);
+  CHECK(contains(limited.out, "| 5 s late | more may happen: the search had a limit |  |  |  |"));
+}
+
 TEST_CASE("a table of failures has its own formats") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("grasp.xml", kGrasp);
