@@ -4,10 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iterator>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
+#include "base/core/wording.h"
 #include "cli/console.h"
 #include "language/document/file.h"
 
@@ -16,15 +17,14 @@ namespace {
 
 class PropertyReader {
  public:
-  explicit PropertyReader(const PropertyNames& names) : names_(names) {}
+  // Behind those of a tree file.
+  PropertyReader(const PropertyNames& names, std::vector<Property> of_file)
+      : names_(names), properties_(std::move(of_file)) {}
 
   // The text is that line of what is called `source`.
   void read(std::string_view text, const std::string& source, std::uint32_t line) {
     auto property = Property::parse(text, names_);
-    if (property) {
-      properties_.push_back(std::move(*property));
-      return;
-    }
+    if (property) return add(std::move(*property), {source, line, 1});
     const PropertyError& error = property.error();
     const std::string_view before = text.substr(0, error.offset);
     const auto line_begin = before.rfind('\n') + 1;  // 0 when there is none
@@ -64,6 +64,17 @@ class PropertyReader {
   }
 
  private:
+  // Findings, scenarios and lines about a property have its name.
+  void add(Property property, const SourceLocation& location) {
+    const auto same = std::ranges::find(properties_, property.name(), &Property::name);
+    if (same == properties_.end()) return properties_.push_back(std::move(property));
+    if (same->text() == property.text()) return;
+    diagnostics_.error("duplicate-name"_code, location,
+                       fmt::format("there is a property '{}' already: {}", brief(property.name()),
+                                   brief(same->text())),
+                       "give each its own name");
+  }
+
   const PropertyNames& names_;
   Diagnostics diagnostics_;
   std::vector<Property> properties_;
@@ -83,22 +94,15 @@ void add_property_options(CLI::App& app, PropertyOptions& options) {
       ->allow_extra_args(false);
 }
 
-std::optional<std::vector<Property>> read_properties(const PropertyOptions& options,
-                                                     const PropertyNames& names) {
-  PropertyReader reader(names);
-  for (const std::string& text : options.texts) reader.read(text, "--property", 1);
-  for (const std::string& file : options.files) reader.read_file(file);
-  return reader.result();
-}
-
 std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
                                                     const PropertyOptions& options,
                                                     const std::function<PropertyNames()>& names) {
   if (options.texts.empty() && options.files.empty()) return of_file;
-  auto more = read_properties(options, names());
-  if (!more) return std::nullopt;
-  std::ranges::move(*more, std::back_inserter(of_file));
-  return of_file;
+  const PropertyNames known = names();
+  PropertyReader reader(known, std::move(of_file));
+  for (const std::string& text : options.texts) reader.read(text, "--property", 1);
+  for (const std::string& file : options.files) reader.read_file(file);
+  return reader.result();
 }
 
 }  // namespace lockstep::host

@@ -21,10 +21,8 @@ struct PropertyOptions {
 
 void add_property_options(CLI::App& app, PropertyOptions& options);
 
-// Prints what is wrong, each at its column, and returns nothing then.
-std::optional<std::vector<Property>> read_properties(const PropertyOptions& options,
-                                                     const PropertyNames& names);
-// Those of a tree file, and then these: the names are made for these alone.
+// Those of a tree file, and then these: the names are made for these alone. Prints what is wrong,
+// each at its column, and returns nothing then.
 std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
                                                     const PropertyOptions& options,
                                                     const std::function<PropertyNames()>& names);

@@ -219,7 +219,10 @@ std::uint32_t line_of_leaf(std::string_view text, std::string_view path) {
   for (std::uint32_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    if (line.starts_with(path) && line.substr(path.size()).starts_with(" = ")) return number;
+    const bool is_of_leaf = line.starts_with(path) && line.substr(path.size()).starts_with(" = ");
+    const bool is_of_cut = line.starts_with("@cut ") && line.ends_with(path) &&
+                           line[line.size() - path.size() - 1] == ' ';
+    if (is_of_leaf || is_of_cut) return number;
   }
   return 0;
 }

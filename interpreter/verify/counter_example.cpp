@@ -25,7 +25,7 @@ std::vector<Property> property_of(const Tree& tree, const Finding& finding,
                                   std::span<const Property> properties) {
   std::vector<Property> found;
   for (const Property& it : properties) {
-    const bool is_meant = finding.name == "property/" + it.name();
+    const bool is_meant = finding.name == name_of_finding(it);
     if (is_meant && !names_fact(it, tree)) found.push_back(it);
   }
   return found;

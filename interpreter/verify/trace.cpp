@@ -246,14 +246,18 @@ void ScriptWriter::add_tick() {
 
 void ScriptWriter::add(std::uint32_t leaf) {
   const LeafMark& mark = std::as_const(stepper_).leaves().marks()[leaf];
-  if ((!mark.ticked && !mark.drifted) || stepper_.leaves().is_outside(leaf)) return;
+  // What it writes in its start may be a fault: then it has no tick.
+  const bool has_written =
+      std::ranges::any_of(mark.written, [](auto it) { return it != kNoWrite; });
+  const bool has_word = mark.ticked || has_written;
+  if ((!has_word && !mark.drifted) || stepper_.leaves().is_outside(leaf)) return;
   auto& words = scripts_.leaves[tree_.path(tree_.leaves[leaf].node)];
   if (mark.drifted) {
     words.push_back({.kind = LeafWord::Kind::Held, .progress = mark.held_progress});
   }
-  if (!mark.ticked) return;
+  if (!has_word) return;
   LeafWord word{.kind = mark.faulted ? LeafWord::Kind::Fault : LeafWord::Kind::Tick,
-                .status = mark.result,
+                .status = mark.ticked ? mark.result : Status::Running,
                 .progress = mark.result == Status::Running ? mark.progress : 0};
   const auto& outputs = models_.leaves[leaf].outputs;
   for (std::size_t i = 0; i < mark.written.size(); ++i) {

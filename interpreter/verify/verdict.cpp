@@ -698,7 +698,7 @@ void Verdict::keep_only(std::span<const std::string> patterns) {
 }
 
 std::string name_of_finding(const Property& property) {
-  return "property/" + property.name();
+  return std::string(kPropertyFinding) + property.name();
 }
 
 Verdict make_verdict(const Tree& tree, const LeafModels& models,

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "verify/trace.h"
@@ -52,6 +53,7 @@ struct VerdictOptions {
 };
 
 // That a property is violated: "property/close".
+inline constexpr std::string_view kPropertyFinding = "property/";
 std::string name_of_finding(const Property& property);
 
 Verdict make_verdict(const Tree& tree, const LeafModels& models,

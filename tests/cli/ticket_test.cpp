@@ -157,3 +157,31 @@ TEST_CASE("there is no ticket for a tree with findings, and none for some of the
   CHECK(read_file(files.ticket).empty());
   CHECK(files.verify({"--only", "trap"}).code == 2);
 }
+
+TEST_CASE("what a leaf model accepts and what a limit left out are not called proved") {
+  const TemporaryDirectory directory;
+  const std::string ticket = directory.path("t.json");
+  const std::string tree =
+      directory.file("t.xml",
+                     "<root lockstep=\"1\"><property name=\"close\">never w.running</property>"
+                     "<property name=\"open\">never w.failure</property><BehaviorTree ID=\"M\">"
+                     "<Wait name=\"w\" seconds=\"1\"/></BehaviorTree></root>\n");
+  const std::string model = directory.file(
+      "t.leaves.xml",
+      "<leaves lockstep=\"1\"><accept finding=\"property/close\" because=\"known\"/></leaves>\n");
+  const auto said = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"verify", tree,    "--ticket",
+                                   ticket,   "--out", directory.path("o")};
+    words.insert(words.end(), more.begin(), more.end());
+    REQUIRE(run_lockstep(words).code != 2);
+    return run_lockstep({"run", tree, "--clock", "virtual", "--require-ticket", ticket}).err;
+  };
+  const std::string accepted = said({"--leaves", model});
+  CHECK(contains(accepted, "  proved: open: never w.failure\n"));
+  CHECK(!contains(accepted, "proved: close"));
+  CHECK(contains(accepted, "  not proved, but accepted: property/close: "));
+  CHECK(contains(accepted, " (known)\n"));
+  const std::string limited = said({"--leaves", model, "--depth", "2"});
+  CHECK(contains(limited, "  holds within the limit: open: never w.failure\n"));
+  CHECK(!contains(limited, "  proved: "));
+}

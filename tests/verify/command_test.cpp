@@ -515,6 +515,9 @@ TEST_CASE("which findings count is what --only says") {
                                         directory.path("out"), "--only", "none", "--depth", "1"});
   CHECK(bounded.code == 124);
   CHECK(contains(bounded.out, "bounded: nothing found in the first "));
+  const Outcome mistyped = only("property/clsoe");
+  CHECK(mistyped.code == 2);
+  CHECK(contains(mistyped.err, "--only: there is no property 'property/clsoe'"));
   const Outcome dead = only("never-ticked/*");
   CHECK(dead.code == 1);
   CHECK(contains(dead.out, "finding never-ticked/T/Sequence/Fallback/dead"));
@@ -534,6 +537,35 @@ TEST_CASE("a finding with a very long name has a recording with a shorter one") 
   CHECK(contains(outcome.out, "not verified: 2 findings"));
   const std::filesystem::directory_iterator files(directory.path("out"));
   CHECK(std::distance(begin(files), end(files)) == 4);
+}
+
+TEST_CASE("two properties have two names, and the same one twice is one") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml",
+                     "<root lockstep=\"1\"><property name=\"p\">never a.failure</property>"
+                     "<BehaviorTree ID=\"T\"><AlwaysSuccess name=\"a\"/></BehaviorTree></root>");
+  const Outcome other = run_lockstep({"verify", tree, "--property", "p: never a.success"});
+  CHECK(other.code == 2);
+  CHECK(contains(other.err, "there is a property 'p' already: never a.failure"));
+  CHECK(run_lockstep({"run", tree, "--property", "p: never a.success"}).code == 2);
+  CHECK(run_lockstep({"verify", tree, "--property", "p: never a.failure"}).code == 0);
+}
+
+TEST_CASE("the script of a finding has what a leaf writes in a start that is a fault") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="T">
+<Sequence><Script code="y := 1"/><Switch2 variable="{y}" case_1="0" case_2="1"><AlwaysSuccess/>
+<A name="a" o="{y}"/><AlwaysSuccess/></Switch2></Sequence></BehaviorTree>
+<TreeNodesModel><Action ID="A"><output_port name="o" type="int"/></Action></TreeNodesModel></root>)");
+  const std::string model = directory.file(
+      "t.leaves.xml",
+      R"(<leaves lockstep="1"><leaf of="A" ticks="1" out.o="0|1" writes="start"/></leaves>)");
+  const Outcome outcome =
+      run_lockstep({"verify", tree, "--mock", "--leaves", model, "--out", directory.path("out")});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.out, "finding fault/T/Sequence/Switch2/a"));
 }
 
 TEST_CASE("a folder or a missing file of properties is refused") {
@@ -612,4 +644,7 @@ TEST_CASE("a script of another tree is refused") {
   CHECK(other.code == 2);
   CHECK(contains(other.err, "the tree has no leaf 'OpenDoor/open/handl'"));
   CHECK(played("OpenDoor\n").code == 2);
+  const Outcome cut = played("@cut 1 continue OpenDoor/open/handl\n");
+  CHECK(cut.code == 2);
+  CHECK(contains(cut.err, "s.leaves:1:1: error: the tree has no leaf 'OpenDoor/open/handl'"));
 }

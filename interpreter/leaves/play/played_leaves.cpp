@@ -359,15 +359,20 @@ std::optional<PlayedLeaves::Mistake> PlayedLeaves::check(const LeafScripts& scri
                                                          const Tree& tree) {
   std::map<std::string, const NodeType*, std::less<>> leaves;
   for (const LeafNode& leaf : tree.leaves) leaves[tree.path(leaf.node)] = leaf.type;
+  const auto unknown = [&](const std::string& path) {
+    std::vector<std::string_view> known;
+    for (const auto& it : leaves) known.emplace_back(it.first);
+    return Mistake{{fmt::format("the tree has no leaf '{}'", brief(path)),
+                    suggest_path(path, known, "its leaves")},
+                   path};
+  };
+  for (const ScriptCut& cut : scripts.cuts) {
+    for (const auto& [path, does] : cut.leaves)
+      if (!leaves.contains(path)) return unknown(path);
+  }
   for (const auto& [path, words] : scripts.leaves) {
     const auto leaf = leaves.find(path);
-    if (leaf == leaves.end()) {
-      std::vector<std::string_view> known;
-      for (const auto& it : leaves) known.emplace_back(it.first);
-      return Mistake{{fmt::format("the tree has no leaf '{}'", brief(path)),
-                      suggest_path(path, known, "its leaves")},
-                     path};
-    }
+    if (leaf == leaves.end()) return unknown(path);
     for (const LeafWord& word : words) {
       if (auto wrong = check_written(*leaf->second, word)) return Mistake{*std::move(wrong), path};
     }

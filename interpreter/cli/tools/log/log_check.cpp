@@ -71,10 +71,9 @@ int check_properties(const LogCheckOptions& options) {
       const int code = add_declared(options, reader.header(), names, declared);
       if (code != kExitSuccess) return code;
     }
-    auto properties = read_properties(options.properties, names);
+    auto properties =
+        all_properties(std::move(declared), options.properties, [&] { return names; });
     if (!properties) return kExitUsage;
-    properties->insert(properties->begin(), std::make_move_iterator(declared.begin()),
-                       std::make_move_iterator(declared.end()));
     PropertyChecks checks(std::move(*properties));
     check_recording(reader, checks);
     if (!reader.error().empty()) return report_end(reader);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/core/suggest.h"
 #include "base/core/wording.h"
 #include "base/system/output_file.h"
 #include "base/terminal/outlet.h"
@@ -184,6 +185,7 @@ class VerifyCommand {
     });
     if (!properties) return kExitUsage;
     properties_ = std::move(*properties);
+    if (!knows_only()) return kExitUsage;
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const Observed observed = observed_by(runnable.tree, properties_, problems);
     if (!options_.save_model.empty() && !save_model(runnable.tree, observed.entries))
@@ -313,7 +315,9 @@ class VerifyCommand {
     const FmeaReport report{runnable.tree, properties_, rows, rate};
     const int failed = write_results(to_text(report, options_.json ? "json" : options_.format));
     const int signal = StopSignals::received();
-    return signal != 0 ? kExitSignal + signal : failed;
+    if (signal != 0) return kExitSignal + signal;
+    const bool is_whole = std::ranges::all_of(rows, &FailureRow::is_complete);
+    return first_failure(failed, is_whole ? kExitSuccess : kExitLimit);
   }
 
   int write_probability(const Runnable& runnable, const LeafModels& models, double rate) const {
@@ -348,6 +352,21 @@ class VerifyCommand {
     if (signal != 0) return kExitSignal + signal;
     const bool is_whole = graph.end == SearchEnd::Complete && !found.is_cut;
     return first_failure(failed, is_whole ? kExitSuccess : kExitLimit);
+  }
+
+  // The names of all properties are known, and a mistyped one would leave out its finding.
+  bool knows_only() const {
+    std::vector<std::string> names;
+    for (const Property& it : properties_) names.push_back(name_of_finding(it));
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    for (const std::string& it : options_.only) {
+      const bool is_of_property = it.starts_with(kPropertyFinding) && it.find('*') == it.npos;
+      if (!is_of_property || std::ranges::find(known, it) != known.end()) continue;
+      print_error(fmt::format("--only: there is no property '{}'", printable(it)),
+                  suggest(it, known, "findings about properties"));
+      return false;
+    }
+    return true;
   }
 
   bool give_ticket(const VerifyReport& report, double rate) const {
