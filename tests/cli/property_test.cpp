@@ -97,7 +97,7 @@ TEST_CASE("log check leaves open what a recording that was cut does not decide")
   const Outcome outcome = check(cut, {"sometimes arm.success", "never arm.failure"});
   CHECK(outcome.code == 124);
   CHECK(contains(outcome.out, "open     -     sometimes arm.success\n"));
-  CHECK(contains(outcome.out, "holds    -     never arm.failure\n"));
+  CHECK(contains(outcome.out, "open     -     never arm.failure\n"));
 }
 
 TEST_CASE("log check: a mistake in a property is reported at its column") {

@@ -59,7 +59,7 @@ const std::vector<Refusal> kRefusals{
     {2, {"--runs", "9", "--until-ci", "0"}, "--until-ci 0: expected a width above 0"},
     {2, {"--runs", "9", "--until-ci", "narrow"}, "such as 5%, of the median"},
     {2, {"--runs", "9", "--until-ci", "-1%"}, "--until-ci"},
-    {2, {"--runs", "9", "--until-ci", ""}, "expected a width above 0"},
+    {2, {"--runs", "9", "--until-ci", ""}, "'--until-ci' needs a value"},
     {2, {"--runs", "1", "--shard", "3/2"}, "expected I/N"},
     {2, {"--runs", "1", "--shard", "1"}, "expected I/N"},
     {2, {"--runs", "1", "--shard", "1/18446744073709551617"}, "expected I/N"},
