@@ -127,6 +127,8 @@ bool Golden::update(std::vector<Surprise>& surprises) const {
   again.record = brief.path(path.ends_with(".zst") ? ".jsonl.zst" : ".jsonl");
   std::string problem = runner.run(again).problem;
   if (problem.empty()) {
+    std::error_code error;  // what is wrong, the writer says
+    fs::create_directories(fs::path(path).parent_path(), error);
     const auto bytes = read_file(again.record, std::size_t{4} << 30u);
     const Result<void> written =
         bytes ? write_output(path, *bytes) : Result<void>(tl::unexpected(bytes.error()));

@@ -503,7 +503,7 @@ TEST_CASE("the order of the lines does not depend on the number of threads") {
 TEST_CASE("a golden recording is written by --update, and compared") {
   const std::string head = R"(<scenario name="a"><leaf path="left" does="R.2 R.)";
   const std::string rest =
-      R"( S"/><leaf path="right" does="R S"/><expect same-as="gold.jsonl" tolerance="0.05"/></scenario>)";
+      R"( S"/><leaf path="right" does="R S"/><expect same-as="golden/a.jsonl" tolerance="0.05"/></scenario>)";
   const Folder folder(head + "4" + rest);
   CHECK(contains(folder.test().out, "cannot be read"));
   CHECK(contains(folder.test({"--update"}).out, "1 recording written"));
