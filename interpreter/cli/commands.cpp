@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -127,21 +128,35 @@ bool is_in_plugin() {
   return !is_own_thread() || CallMark::this_thread().look().function != PluginFunction::None;
 }
 
+std::atomic<bool> has_lacked_memory{false};
+
+void on_new_failed() {
+  has_lacked_memory = true;
+  throw std::bad_alloc();
+}
+
+// Out of a function that is noexcept, as some of simdjson are, the compiler may end the program
+// before the exception is the current one.
+bool is_out_of_memory() {
+  const auto reason = std::current_exception();
+  if (reason == nullptr) return has_lacked_memory && std::uncaught_exceptions() > 0;
+  try {
+    std::rethrow_exception(reason);
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {  // the report of the crash says no less
+    return false;
+  }
+}
+
 // A destructor that takes memory, as that of a JSON value does, ends here when there is none. What
 // nobody catches in a plugin is its crash.
 [[noreturn]] void on_terminate() {
-  try {
-    if (const auto reason = std::current_exception(); reason != nullptr && !is_in_plugin()) {
-      std::rethrow_exception(reason);
-    }
-  } catch (const std::bad_alloc&) {
-    RawTerminal::restore_for_good();
-    say_out_of_memory();
-    messages().flush(Outlet::kPatience);
-    end_at_once(kExitInternal);
-  } catch (...) {  // the report of the crash says no less
-  }
-  std::abort();
+  if (is_in_plugin() || !is_out_of_memory()) std::abort();
+  RawTerminal::restore_for_good();
+  say_out_of_memory();
+  messages().flush(Outlet::kPatience);
+  end_at_once(kExitInternal);
 }
 
 }  // namespace
@@ -152,6 +167,7 @@ Command absent(const char* name) {
 
 int run_program(int argc, char** argv) {
   std::set_terminate(on_terminate);
+  std::set_new_handler(on_new_failed);
   make_writes_fail();
   try {
     try {

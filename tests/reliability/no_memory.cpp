@@ -38,8 +38,9 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
 
 void* operator new(std::size_t size) {
   void* const memory = operator new(size, std::nothrow);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
+  if (memory != nullptr) return memory;
+  if (const auto handler = std::get_new_handler()) handler();
+  throw std::bad_alloc();
 }
 
 void operator delete(void* memory) noexcept {
