@@ -110,26 +110,32 @@ TEST_CASE("log events: each hold has its release, also where the node above is h
   const char* const states[] = {
       R"([0,"running",0,1,0],[1,"running",0,1,0],[2,"running",0,1,0],[3,"running",0,1,0])",
       R"([2,"running",0,0,1],[3,"running",0,0,1])",
-      R"([1,"running",0,0,1])",
+      R"([0,"running",0,1,0],[1,"running",0,0,1],[2,"running",0,0,1],[3,"running",0,0,1])",
       R"([1,"running",0,1,0],[2,"running",0,1,0],[3,"running",0,1,0])",
       R"([2,"running",0,0,1],[3,"running",0,0,1])",
       R"([2,"running",0,1,0],[3,"running",0,1,0])"};
   for (int tick = 0; tick < 6; ++tick) {
     text += "{\"tick\":" + std::to_string(tick) + ",\"time_s\":0." + std::to_string(tick) +
-            ",\"nodes\":[" + states[tick] + "]}\n";
+            ",\"nodes\":[" + states[tick] + (tick == 2 ? "],\"whole\":[]}\n" : "]}\n");
   }
   const TemporaryDirectory directory;
   const std::string file = directory.file("run.jsonl", text);
-  CHECK(run_lockstep(
-            {"log", "events", file, "--event", "hold", "--event", "release", "--format", "csv"})
-            .out ==
-        "tick,time_s,event,what,value\n"
-        "1,0.1,hold,T/p/q/s,\n"
-        "2,0.2,hold,T/p/q,\n"
-        "3,0.3,release,T/p/q,\n"
-        "3,0.3,release,T/p/q/s,\n"
-        "4,0.4,hold,T/p/q/s,\n"
-        "5,0.5,release,T/p/q/s,\n");
+  const auto events_from = [&](const std::string& tick) {
+    return run_lockstep({"log", "events", file, "--event", "hold", "--event", "release", "--format",
+                         "csv", "--from", tick})
+        .out;
+  };
+  const std::string head = "tick,time_s,event,what,value\n";
+  const std::string before =
+      "1,0.1,hold,T/p/q/s,\n"
+      "2,0.2,hold,T/p/q,\n";
+  const std::string rest =
+      "3,0.3,release,T/p/q,\n"
+      "3,0.3,release,T/p/q/s,\n"
+      "4,0.4,hold,T/p/q/s,\n"
+      "5,0.5,release,T/p/q/s,\n";
+  CHECK(events_from("0") == head + before + rest);
+  CHECK(events_from("3") == head + rest);  // the line of tick 2 has the whole state
 }
 
 TEST_CASE(

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/core/csv_field.h"
+#include "base/core/synchronization.h"
 #include "base/json/json.h"
 #include "record/use/recording_merge.h"
 #include "trace/completion.h"
@@ -168,12 +169,28 @@ class Events {
   bool is_wanted_ = true;
 };
 
+// Whether a node that may be held is below another one: of a tick alone it is not known which of
+// them were held before the other.
+bool holds_in_holds(const RecordingHeader& header) {
+  std::vector<bool> may_be_held(header.nodes.size()), is_in_held(header.nodes.size());
+  for (const ShapeNode& it : header.nodes) {
+    if (!compares_progress(it.synchronization) && !it.is_pool()) continue;
+    for (const NodeIndex child : it.held()) may_be_held[child] = true;
+  }
+  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+    const auto parent = header.nodes[node].parent;
+    is_in_held[node] = parent && (is_in_held[*parent] || may_be_held[*parent]);
+    if (is_in_held[node] && may_be_held[node]) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void each_event(RecordingReader& reader, TickRange range, const EventSink& take) {
   Events events(reader.header(), range, take);
   // The tick before it tells what changed with a tick.
-  if (range.from > 1) reader.skip_to(range.from - 1);
+  if (range.from > 1 && !holds_in_holds(reader.header())) reader.skip_to(range.from - 1);
   bool is_wanted = true;
   while (is_wanted) {
     const auto tick = reader.next();
