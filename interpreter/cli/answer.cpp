@@ -121,7 +121,11 @@ bool is_taken(const Asked& question) {
 int confirm(const Asked& question, const std::string& given) {
   const AnsweredQuestion asked{static_cast<std::uint32_t>(question.node), question.tick};
   auto text = ask_run(question.run.socket, asked.request());
-  if (!text) return kExitSuccess;  // the run has ended with it
+  if (!text) {  // mostly with the answer
+    print_note(fmt::format("run {} has ended", printable(question.run.name)),
+               "its recording shows whether it took the answer");
+    return kExitSuccess;
+  }
   std::string answer, who;
   try {
     JsonReader().read(*text, [&](JsonObject object) {

@@ -132,6 +132,22 @@ def test_the_first_answer_counts(directory):
     assert run.end()[0] == 143
 
 
+def test_an_answer_to_a_held_question_that_is_halted_was_not_taken(directory):
+    tree = os.path.join(directory, "held.xml")
+    with open(tree, "w") as file:
+        file.write("""<root lockstep="1"><BehaviorTree ID="Main"><Sequence memory="true"><Fallback memory="true">
+<Timeout seconds="3"><ParallelAbsolute barriers="0.1;1"><Sequence memory="true"><AlwaysSuccess/><Ask name="q" text="open?"/>
+</Sequence><AlwaysRunning/></ParallelAbsolute></Timeout><AlwaysSuccess/></Fallback><AlwaysRunning/></Sequence></BehaviorTree></root>""")
+    run = Terminal(directory, tree, "--rate", "10")
+    run.wait_for(r"q asks: open\?")
+    given = run.other("answer", "yes", "--by", "maria")
+    assert given.returncode == 2, given
+    assert "is held, or the run is paused" in given.stderr or "waits for no answer any more" in given.stderr, given
+    run.wait_for(r"q: halted before it took the answer yes \(by maria\)")
+    run.run.send_signal(signal.SIGTERM)
+    assert run.end()[0] == 143
+
+
 def test_a_run_with_a_monitor_is_reached_too(directory):
     run = Terminal(directory, os.path.join(TREES, "ask.xml"), "--monitor", "127.0.0.1:0", "--monitor-linger", "0")
     run.wait_for("where asks")

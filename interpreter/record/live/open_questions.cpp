@@ -31,20 +31,15 @@ std::optional<GivenAnswer> OpenQuestions::answer_to(NodeIndex node, std::uint64_
 
 void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
   bool is_changed = false;
+  for (const GivenAnswer& it : moment.answers) given_.insert_or_assign(it.node, it);
   for (const NodeIndex node : asking_) {
-    const auto answer = std::ranges::find(moment.answers, node, &GivenAnswer::node);
-    const bool is_answered = answer != moment.answers.end();
     const bool asks = moment.status(node) == Status::Running;
     const Lock lock(mutex_);  // nobody holds it for long
-    auto it = std::ranges::find(now_, node, &OpenQuestion::node);
-    if (it != now_.end() && asks && !is_answered && it->text == moment.reason(node)) continue;
-    if (it == now_.end() && !asks) continue;
+    const auto it = std::ranges::find(now_, node, &OpenQuestion::node);
+    if (it == now_.end() ? !asks : !is_over(moment, *it)) continue;
     is_changed = true;
     if (it != now_.end()) {
-      constexpr std::size_t kMost = 1000;
-      tell_end(moment, *it);
-      if (is_answered) answered_.push_back({*it, *answer});
-      if (answered_.size() > kMost) answered_.pop_front();
+      end(moment, *it);
       now_.erase(it);
     }
     if (!asks) continue;
@@ -59,11 +54,27 @@ void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
   if (is_changed) on_change_();
 }
 
-void OpenQuestions::tell_end(const Moment& moment, const OpenQuestion& question) const {
+bool OpenQuestions::is_over(const Moment& moment, const OpenQuestion& question) const {
+  if (moment.status(question.node) != Status::Running) return true;
+  if (given_.contains(question.node)) return moment.state(question.node).ticked();
+  return question.text != moment.reason(question.node);
+}
+
+void OpenQuestions::end(const Moment& moment, const OpenQuestion& question) {
+  constexpr std::size_t kMost = 1000;
   const std::string path = printable(shape_.nodes[question.node].path);
-  const auto answer = std::ranges::find(moment.answers, question.node, &GivenAnswer::node);
-  if (answer != moment.answers.end()) {
-    return tell_(fmt::format("{}: {} (by {})", path, printable(answer->answer), answer->who));
+  const auto given = given_.extract(question.node);
+  if (given && moment.state(question.node).ticked()) {
+    const GivenAnswer& answer = given.mapped();
+    tell_(fmt::format("{}: {} (by {})", path, printable(answer.answer), answer.who));
+    answered_.push_back({question, answer});
+    if (answered_.size() > kMost) answered_.pop_front();
+    return;
+  }
+  if (given) {
+    const GivenAnswer& answer = given.mapped();
+    return tell_(fmt::format("{}: halted before it took the answer {} (by {})", path,
+                             printable(answer.answer), answer.who));
   }
   const bool is_halted = moment.status(question.node) == Status::Idle;
   const std::string why(moment.reason(question.node));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +45,10 @@ class OpenQuestions final : public Observer {
   void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
-  void tell_end(const Moment& moment, const OpenQuestion& question) const;
+  // Whether the question is over. An answer that came is taken in the next tick that reaches the
+  // node: one that is held may be halted before.
+  bool is_over(const Moment& moment, const OpenQuestion& question) const;
+  void end(const Moment& moment, const OpenQuestion& question);
 
   const Shape& shape_;
   const Tell tell_;
@@ -57,6 +61,7 @@ class OpenQuestions final : public Observer {
     GivenAnswer answer;
   };
   std::deque<Answered> answered_ LOCKSTEP_GUARDED_BY(mutex_);  // the last ones
+  std::map<NodeIndex, GivenAnswer> given_;                     // that were not taken yet
 };
 
 // Whether a run of the tree may ask something.
