@@ -70,20 +70,25 @@ class ExactShifts {
     means_.erase(std::unique(means_.begin(), means_.end()), means_.end());
   }
 
-  // Nothing if no shift is rejected.
-  std::optional<Interval> accepted() const {
-    const std::size_t last = means_.size() - 1;
+  // With the estimate: where most differences are equal, it may be rejected, or each shift. Nothing
+  // if no shift is rejected.
+  std::optional<Interval> accepted(double estimate) const {
     // Beyond all means each difference has the same sign: one choice of signs of all.
     if (std::ldexp(2, -static_cast<int>(differences_.size())) >= 1 - kConfidence)
       return std::nullopt;
+    const std::size_t last = means_.size() - 1;
     std::size_t low = 0, high = last;
-    while (low < last && !is_accepted(means_[low]) && !is_accepted(between(low))) ++low;
-    while (high > low && !is_accepted(means_[high]) && !is_accepted(between(high - 1))) --high;
-    return Interval{means_[low], means_[high]};
+    while (low < last && means_[low] < estimate && !is_any_accepted(low, low)) ++low;
+    while (high > 0 && means_[high] > estimate && !is_any_accepted(high, high - 1)) --high;
+    return Interval{std::min(means_[low], estimate), std::max(means_[high], estimate)};
   }
 
  private:
-  double between(std::size_t i) const { return means_[i] + (means_[i + 1] - means_[i]) / 2; }
+  // A mean, and the shifts between one and the next.
+  bool is_any_accepted(std::size_t mean, std::size_t gap) const {
+    return is_accepted(means_[mean]) ||
+           is_accepted(means_[gap] + (means_[gap + 1] - means_[gap]) / 2);
+  }
   bool is_accepted(double shift) const {
     Values shifted, roundings;
     for (const double value : differences_) {
@@ -115,7 +120,10 @@ Shift shift_of(std::span<const double> differences) {
   const Values x = sorted(differences);
   const std::uint64_t means = std::uint64_t{x.size()} * (x.size() + 1) / 2;
   const auto nth = [&](std::uint64_t n) { return nth_own_sum(x, n) / 2; };
-  if (x.size() <= kMostExactPairs) return {median_among(means, nth), ExactShifts(x).accepted()};
+  if (x.size() <= kMostExactPairs) {
+    const double estimate = median_among(means, nth);
+    return {estimate, ExactShifts(x).accepted(estimate)};
+  }
   return shift_among(
       means, signed_rank_variance(static_cast<double>(x.size()), 0, ranks_of(differences).ties),
       nth);

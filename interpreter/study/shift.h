@@ -1,7 +1,8 @@
 // How much larger one sample is than another: the estimate of Hodges and Lehmann (1963), and all
 // shifts that the rank test of the same samples does not reject at 5 % (Hollander, Wolfe 1999, 3.3
 // and 4.3). If no values of both samples are equal, the interval contains 0 exactly if p is at
-// least 0.05. If some are, p may be smaller while the interval still has 0, mostly as an end.
+// least 0.05. If some are, p may be smaller while the interval still has 0, mostly as an end. It
+// always has the estimate, and is that alone where each shift is rejected.
 #pragma once
 
 #include <optional>

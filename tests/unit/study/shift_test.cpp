@@ -177,6 +177,34 @@ TEST_CASE("shifts: turned samples have turned shifts") {
   CHECK(turned.interval->high == -shift.interval->low);
 }
 
+TEST_CASE("shifts: the interval of pairs contains the estimate, also where most pairs are equal") {
+  RandomStream random(1963, 4);
+  int rejected = 0;
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    Values differences(30 + static_cast<std::size_t>(repeat) % 11, 0.0), turned;
+    const auto others = static_cast<std::size_t>(repeat % 9);  // all of them above
+    for (std::size_t i = 0; i < others; ++i)
+      differences[i] = std::floor(1 + 1.4 * random.next_double());
+    for (const double value : differences) turned.push_back(-value);
+    const Shift shift = shift_of(differences), other = shift_of(turned);
+    INFO(repeat);
+    REQUIRE(shift.interval);
+    CHECK(contains(shift.interval, shift.estimate));
+    CHECK(other.estimate == -shift.estimate);
+    CHECK(other.interval->low == -shift.interval->high);
+    CHECK(other.interval->high == -shift.interval->low);
+    rejected += signed_rank(differences).p < 0.05 ? 1 : 0;
+  }
+  CHECK(rejected > 0);
+  // 33 of 39 are equal: each shift is rejected.
+  Values differences(39, 0.0);
+  std::fill_n(differences.begin(), 6, 1.0);
+  const Shift alone = shift_of(differences);
+  CHECK(alone.estimate == 0);
+  CHECK(alone.interval->low == 0);
+  CHECK(alone.interval->high == 0);
+}
+
 TEST_CASE("shifts: few values have no interval, equal ones an interval of one point") {
   CHECK(shift_between(Values{1}, Values{3}).estimate == 2);
   CHECK_FALSE(shift_between(Values{1}, Values{3}).interval);
