@@ -17,11 +17,19 @@ namespace lockstep::host {
 // NaN: nothing was measured.
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
+// What comes between two ticks that are measured, if the second is not simply the next one.
+enum class Joint : std::uint8_t {
+  Lost,  // ticks of which nothing is known, or the begin of the run
+  Cut,   // nothing, but leaves may have started again
+};
+
 // Measures one run after the other. Does not allocate after construction.
 class Accumulator {
  public:
   virtual ~Accumulator() = default;
   virtual void reset() = 0;  // as new, for the next run
+  // Before the tick behind the joint. What compares a tick with the one before it starts anew.
+  virtual void join(Joint) {}
   virtual void after_tick(const TickView& view) = 0;
   virtual double value(const EndView& end) const = 0;
   virtual double gap() const { return kNoValue; }  // only where the row has one

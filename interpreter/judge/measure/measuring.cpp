@@ -257,6 +257,10 @@ void Measuring::reset() {
   for (auto& accumulator : accumulators_) accumulator->reset();
 }
 
+void Measuring::join(Joint joint) {
+  for (auto& accumulator : accumulators_) accumulator->join(joint);
+}
+
 void Measuring::after_tick(const Moment& moment) {
   SynchronizedTick* next = ticks_.data();
   for (SynchronizedTicks& parallel : parallels_) parallel.read(moment, *next++);

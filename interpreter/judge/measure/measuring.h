@@ -35,6 +35,7 @@ class Measuring {
   const AskedOfRun& asked() const { return asked_; }
 
   void reset();  // for the next run
+  void join(Joint joint);
   void after_tick(const Moment& moment);
   // NaN: it was not reached.
   double value(std::size_t column, const EndView& end) const;

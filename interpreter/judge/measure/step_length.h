@@ -16,8 +16,8 @@ class StepLength final : public Accumulator {
   explicit StepLength(const MeasureTarget& target) : place_(target.place), last_(target.children) {}
 
   void reset() override { running_ = false, longest_ = kNoValue; }
-  // What was between the tick before and the next one is not known.
-  void join() { running_ = false; }
+  // A change across it is not that of one tick.
+  void join(Joint) override { running_ = false; }
   void after_tick(const TickView& view) override;
   // The same in parts, for who goes over the children for more than this: each child, if the node
   // was ticked, then the tick.

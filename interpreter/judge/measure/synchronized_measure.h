@@ -19,14 +19,12 @@ class SynchronizedMeasure {
   SynchronizedMeasure(std::size_t children, const Guards& guards, Synchronization synchronization,
                       bool is_group);
 
-  // The run, later than at its first tick, or after ticks that are not known.
-  void join() {
+  void join(Joint joint) {
+    step_length_.join(joint);
+    if (joint == Joint::Cut) return;
     falls_.join();
-    step_length_.join();
     joins_ = true;
   }
-  // The next tick follows, but leaves may have started again before it.
-  void cut() { step_length_.join(); }
   void after_tick(const SynchronizedTick& tick);
   void run_ended(Nanoseconds time);
 

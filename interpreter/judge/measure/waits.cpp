@@ -15,13 +15,16 @@ class LongestWait final : public Accumulator {
 
   void reset() override {
     reached_ = false;
-    next_ = now_ = longest_ = 0;
+    now_ = longest_ = 0;
+  }
+
+  // Pools keep over a cut who waits.
+  void join(Joint joint) override {
+    if (joint == Joint::Lost) now_ = 0;
   }
 
   void after_tick(const TickView& view) override {
     const Moment& moment = *view.moment;
-    if (moment.tick != next_) now_ = 0;  // nobody knows what it did in the ticks that were lost
-    next_ = moment.tick + 1;
     const bool ticked = moment.ticked(node_);
     reached_ |= ticked;
     now_ = ticked && waits(moment.limit(node_)) ? now_ + 1 : 0;
@@ -34,8 +37,7 @@ class LongestWait final : public Accumulator {
 
  private:
   NodeIndex node_;
-  bool reached_ = false;  // by any tick
-  std::uint64_t next_ = 0;
+  bool reached_ = false;                 // by any tick
   std::uint64_t now_ = 0, longest_ = 0;  // in a row
 };
 

@@ -12,7 +12,7 @@ namespace lockstep::host {
 Statistics::Statistics(Shape shape) : shape_(std::move(shape)), nodes_(measured_nodes(shape_)) {}
 
 void Statistics::join() {
-  for (MeasuredNode& node : nodes_) node.measure.join();
+  for (MeasuredNode& node : nodes_) node.measure.join(Joint::Lost);
 }
 
 void Statistics::run_started(const Moment&, const RunStart& start) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "base/core/diagnostics.h"
 #include "base/core/wording.h"
@@ -12,6 +11,7 @@
 #include "judge/summary/summary.h"
 #include "judge/summary/why.h"
 #include "record/read/recorded_moments.h"
+#include "record/use/recorded_joints.h"
 
 namespace lockstep::host {
 namespace {
@@ -101,17 +101,13 @@ std::string info_text(RecordingReader& reader, bool color) {
   RecordedMoments moments(header);
   WhyWatch why(header);
   std::vector<MeasuredNode> nodes = measured_nodes(header);
-  std::uint64_t ticks = 0, faults = 0, next = 0;
-  std::size_t resumes = 0;
+  RecordedJoints joints(reader);
+  std::uint64_t ticks = 0, faults = 0;
   const Moment* last = nullptr;
   while (const auto tick = reader.next()) {
-    const bool continues =
-        reader.resumes().size() > std::exchange(resumes, reader.resumes().size());
-    const bool follows = tick->tick == std::exchange(next, tick->tick + 1);
     ++ticks;
-    for (MeasuredNode& node : nodes) {
-      if (!follows) node.measure.join();
-      if (continues) node.measure.cut();
+    if (const auto joint = joints.before(*tick)) {
+      for (MeasuredNode& node : nodes) node.measure.join(*joint);
     }
     faults += tick->faults.size();
     last = &moments.read(*tick);

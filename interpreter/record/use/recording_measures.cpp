@@ -12,6 +12,7 @@
 #include "judge/measure/measuring.h"
 #include "judge/summary/summary.h"
 #include "record/read/recorded_moments.h"
+#include "record/use/recorded_joints.h"
 
 namespace lockstep::host {
 namespace {
@@ -29,8 +30,10 @@ Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
   Measuring measuring(header, measures);
   if (!measuring.error().empty()) return problem(measuring.error());
   RecordedMoments moments(header);
+  RecordedJoints joints(reader);
   EndView end{.rate = header.rate_hz, .real_time = header.clock != "virtual"};
   while (const auto tick = reader.next()) {
+    if (const auto joint = joints.before(*tick)) measuring.join(*joint);
     const Moment& moment = moments.read(*tick);
     measuring.after_tick(moment);
     end.ticks = moment.tick + 1;

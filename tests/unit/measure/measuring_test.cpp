@@ -195,6 +195,8 @@ TEST_CASE("nobody knows whether a member waited in a tick that a recording has l
   const double* const limits[] = {&refused};
   const std::uint32_t reached[] = {1};
   for (const std::uint64_t tick : {0, 1, 3, 4, 5, 8}) {
+    if (tick == 3 || tick == 8) wait->join(Joint::Lost);
+    if (tick == 5) wait->join(Joint::Cut);  // the tick before it is known
     const Moment moment{.tick = tick, .reached = reached, .number = 1, .limits = limits};
     wait->after_tick({.moment = &moment});
   }

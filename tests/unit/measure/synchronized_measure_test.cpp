@@ -25,7 +25,7 @@ struct Measured {
     for (Status status = Status::Running; status == Status::Running && ticks < 100; ++ticks) {
       status = run.tick(now);
       const Moment& moment = moments.after_tick(run.ticker(), 0, now);
-      if (ticks == first && first > 0) measure.join();
+      if (ticks == first && first > 0) measure.join(Joint::Lost);
       if (ticks >= first) measure.after_tick(parallel.read(moment));
       now += kPeriod;
     }

@@ -1,6 +1,8 @@
 // What is measured of a recording is what a study measures of the run.
 #include "record/use/recording_measures.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -8,6 +10,7 @@
 #include <sstream>
 
 #include "judge/measure/measure_spec.h"
+#include "record/use/recording_info.h"
 #include "record/write/recorder.h"
 #include "run/shape_of.h"
 #include "study/run_measures.h"
@@ -125,6 +128,53 @@ void compare(const Case& it, std::span<const MeasureSpec> measures, ValuesOfMeas
   CHECK(at == of_recording.size());
 }
 
+// The lines of a run that comes to `ticks`, without its closing line. Their leaves begin anew.
+std::string lines_of(const char* tree, const char* leaves, std::uint64_t first,
+                     std::uint64_t ticks) {
+  const TemporaryPath file;
+  WatchedRun run(tree, leaves);
+  run.start.first_tick = first;
+  run.start.gap = from_seconds(first == 0 ? 0 : 2);
+  Recorder recorder(shape_of(run.run.tree()),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
+  run.watch({&recorder}, ticks);
+  const std::string text = file.text();
+  return text.substr(0, text.find("{\"end\""));
+}
+
+// `text` without the lines of these ticks, as a slow disk leaves it.
+std::string without_ticks(const std::string& text, std::uint64_t first, std::uint64_t end) {
+  const auto line = [&](std::uint64_t tick) {
+    return text.find(fmt::format("{{\"tick\":{},", tick));
+  };
+  return text.substr(0, line(first)) +
+         fmt::format("{{\"lost\":{{\"ticks\":{},\"from\":{}}}}}\n", end - first, first) +
+         text.substr(line(end));
+}
+
+double measured(const std::string& text, const char* measure) {
+  std::istringstream in(text);
+  RecordingReader reader(in, "run.jsonl");
+  const auto measures = measures_of({measure});
+  const double value = measure_recording(reader, measures).value().at(0).value;
+  CHECK(reader.error() == "");
+  return value;
+}
+
+// In the text of `log info`.
+std::string longest_step(const std::string& text) {
+  std::istringstream in(text);
+  RecordingReader reader(in, "run.jsonl");
+  const std::string info = info_text(reader);
+  CHECK(reader.error() == "");
+  constexpr std::string_view kBefore = "longest step ";
+  const auto at = info.find(kBefore);
+  REQUIRE(at != info.npos);
+  return info.substr(at + kBefore.size(), info.find_first_of(",\n", at) - at - kBefore.size());
+}
+
+constexpr const char* kSteps = "ParallelRelative[delta=1](a b)";
+
 }  // namespace
 
 TEST_CASE("a recording has the measures of its run") {
@@ -239,6 +289,31 @@ TEST_CASE("a recording that is cut does not say whether the run succeeded") {
   REQUIRE(values.size() == 2);
   CHECK(std::isnan(values[0].value));
   CHECK(values[1].value == 2);
+}
+
+TEST_CASE("a change over ticks that are missing is not one step of a child") {
+  const std::string text = lines_of(kSteps, "a+.01 b+.1", 0, 9);
+  CHECK(measured(text, "step-length") == Approx(.1));
+  const std::string with_gap = without_ticks(text, 3, 6);
+  CHECK(measured(with_gap, "step-length") == Approx(.1));
+  CHECK(longest_step(with_gap) == "0.1");
+}
+
+TEST_CASE("a change over a cut of the run is not one step of a child") {
+  const std::string text = lines_of(kSteps, "a+.01 b+.1", 0, 6) +
+                           "{\"continued\":{\"ticks\":6}}\n" + lines_of(kSteps, "a+.01 b+.1", 6, 9);
+  CHECK(measured(text, "ticks") == 9);
+  CHECK(measured(text, "step-length") == Approx(.1));
+  CHECK(longest_step(text) == "0.1");
+}
+
+TEST_CASE("ticks in which a node waited are not in a row if ticks between them are missing") {
+  constexpr const char* kPool =
+      "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b))"
+      " resources[name=p increment=0]";
+  const std::string text = lines_of(kPool, "a+.01 b+.01", 0, 10);
+  CHECK(measured(text, "waits:b") == 10);
+  CHECK(measured(without_ticks(text, 3, 5), "waits:b") == 5);
 }
 
 TEST_CASE("a recording tells of a node that has succeeded and was ended in the same tick") {
