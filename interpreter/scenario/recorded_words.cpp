@@ -10,7 +10,9 @@
 #include <set>
 #include <utility>
 
+#include "base/core/wording.h"
 #include "engine/writers.h"
+#include "judge/measure/entry_changes.h"
 #include "record/read/recorded_moments.h"
 #include "record/read/recording_parts.h"
 #include "record/read/recording_reader.h"
@@ -70,9 +72,13 @@ class WordMaker {
     }
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, moment, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) {
-      if (!entry.value || is_of_tree(tick, entry)) continue;
+      if (is_of_tree(tick, entry)) continue;
       const std::string& key = header_.entries[entry.entry].key;
       if (tick.tick == 0 && header_.values.contains(key)) continue;
+      if (!entry.value) {
+        note_too_long(fmt::format("what set '{}' in tick {}", key, tick.tick));
+        continue;
+      }
       words_.changes.push_back({key, *entry.value, tick.tick});
     }
   }
@@ -95,6 +101,7 @@ class WordMaker {
   }
 
   void finish() {
+    note_not_recorded();
     std::erase_if(words_.leaves, [](const auto& it) { return it.second.empty(); });
   }
 
@@ -107,16 +114,50 @@ class WordMaker {
     };
     const bool is_set = std::ranges::find(tick.set, entry.entry) != tick.set.end();
     if (tick.tick > 0) return !writers.empty() && (!is_set || is_ticked());
-    return entry.value == initial_[entry.entry] || is_ticked();
+    const std::string& initial = initial_[entry.entry];
+    const bool is_initial =
+        entry.value ? entry.value == initial : initial.size() > EntryChanges::kLongest;
+    return is_initial || is_ticked();
   }
 
-  enum class Lacks { Moments, Faults, Value, Decision };
+  enum class Lacks { Moments, Faults, Value, TooLong, Decision };
 
   // Each once.
   template <class... Args>
   void note(Lacks what, fmt::format_string<Args...> text, Args&&... args) {
     const auto is_new = noted_.insert(what).second;
     if (is_new) words_.notes.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  void note_too_long(const std::string& what) {
+    note(Lacks::TooLong, "{} is not recorded: the value has more than {} bytes", what,
+         EntryChanges::kLongest);
+  }
+
+  // The entries that the recording leaves out, if its leaves may have written them, or if nothing
+  // in the tree gives them a value: then it came from outside.
+  void note_not_recorded() {
+    std::set<std::uint32_t> written;
+    for (const Leaf& it : leaves_) {
+      if (it.words->empty()) continue;
+      each_output(it, [&](const Parameter&, std::uint32_t slot) { written.insert(slot); });
+    }
+    const auto writers_of = writers(tree_);
+    std::vector<std::string_view> lacking;
+    for (std::uint32_t slot = 0; slot < tree_.slots.size(); ++slot) {
+      const Slot& it = tree_.slots[slot];
+      const bool is_from_outside =
+          writers_of[slot].empty() && std::holds_alternative<NoValue>(it.initial);
+      if (!written.contains(slot) && !is_from_outside) continue;
+      const bool is_there =
+          std::ranges::find(header_.entries, it.name, &ShapeEntry::key) != header_.entries.end();
+      if (!is_there) lacking.push_back(it.name);
+    }
+    if (lacking.empty()) return;
+    words_.notes.push_back(
+        fmt::format("the recording does not have the values of {}: what leaves wrote there, or "
+                    "others set, is not in the scenario",
+                    listed(lacking)));
   }
 
   static bool is_script(const Tree& tree, NodeIndex node) {
@@ -202,27 +243,39 @@ class WordMaker {
     });
   }
 
+  // Its ports that write an entry, and the slots of these.
+  template <class Look>
+  void each_output(const Leaf& it, Look look) const {
+    const auto& parameters = it.leaf->type->parameters;
+    for (std::size_t port = 0; port < parameters.size(); ++port) {
+      const std::uint32_t slot = tree_.ports[it.leaf->first_port + port].slot;
+      if (slot == PortBinding::kUnbound || parameters[port].direction == Direction::Input) continue;
+      look(parameters[port], slot);
+    }
+  }
+
   // Entries that have changed in a tick of a leaf that may write them.
   void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word) {
     for (const RecordedEntry& entry : tick.entries) {
       const ShapeEntry& key = header_.entries[entry.entry];
       const auto& writers = writers_[entry.entry];
       const bool is_writer = std::ranges::find(writers, it.node) != writers.end();
-      if (!is_writer || !entry.value) continue;
-      const auto& parameters = it.leaf->type->parameters;
-      for (std::size_t port = 0; port < parameters.size(); ++port) {
-        const std::uint32_t slot = tree_.ports[it.leaf->first_port + port].slot;
-        if (slot == PortBinding::kUnbound || tree_.slots[slot].name != key.key) continue;
-        if (parameters[port].direction == Direction::Input) continue;
+      if (!is_writer) continue;
+      each_output(it, [&](const Parameter& port, std::uint32_t slot) {
+        if (tree_.slots[slot].name != key.key) return;
+        const std::string& path = header_.nodes[it.node].path;
         if (is_overwritten(tick, entry.entry, it.leaf->node, slot)) {
           note(Lacks::Value,
                "a script wrote '{}' in tick {} after '{}': what this leaf writes is "
                "not recorded",
-               key.key, tick.tick, header_.nodes[it.node].path);
-          continue;
+               key.key, tick.tick, path);
+        } else if (!entry.value) {
+          note_too_long(
+              fmt::format("what '{}' wrote to '{}' in tick {}", path, key.key, tick.tick));
+        } else {
+          word.written.emplace_back(port.name, *entry.value);
         }
-        word.written.emplace_back(parameters[port].name, *entry.value);
-      }
+      });
     }
     note_put_back(tick, it);
   }
@@ -230,21 +283,18 @@ class WordMaker {
   // Where a script has written after the leaf and the entry has not changed, it may have put back
   // the value.
   void note_put_back(const RecordedTick& tick, const Leaf& it) {
-    const auto& parameters = it.leaf->type->parameters;
-    for (std::size_t port = 0; port < parameters.size(); ++port) {
-      const std::uint32_t slot = tree_.ports[it.leaf->first_port + port].slot;
-      if (slot == PortBinding::kUnbound || parameters[port].direction == Direction::Input) continue;
+    each_output(it, [&](const Parameter&, std::uint32_t slot) {
       const auto key = std::ranges::find(header_.entries, tree_.slots[slot].name, &ShapeEntry::key);
-      if (key == header_.entries.end()) continue;
+      if (key == header_.entries.end()) return;
       const auto entry = static_cast<std::uint32_t>(key - header_.entries.begin());
       const bool has_changed =
           std::ranges::find(tick.entries, entry, &RecordedEntry::entry) != tick.entries.end();
-      if (has_changed || !is_overwritten(tick, entry, it.leaf->node, slot)) continue;
+      if (has_changed || !is_overwritten(tick, entry, it.leaf->node, slot)) return;
       note(Lacks::Value,
            "a script wrote '{}' in tick {} after '{}', and it has the value that it had: what this "
            "leaf writes is not recorded",
            key->key, tick.tick, header_.nodes[it.node].path);
-    }
+    });
   }
 
   const RecordingHeader& header_;

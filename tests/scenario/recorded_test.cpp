@@ -177,6 +177,52 @@ on_failure="seen := 4"/><Script code="n := seen"/></Sequence>)",
   CHECK(contains(faulty.err, "as with '--on-fault fail'"));
 }
 
+TEST_CASE("a value that the recording does not have is named in the scenario and on stderr") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T">
+<Sequence memory="true"><Action ID="Look" name="look" seen="{seen}" size="{size}"/>
+<Check code="size == 3"/></Sequence></BehaviorTree><TreeNodesModel>
+<Action ID="Look"><output_port name="seen" type="string"/><output_port name="size" type="int"/>
+</Action></TreeNodesModel></root>)");
+  const std::string run = directory.path("run.jsonl");
+  const auto notes = [&](const std::string& seen, const std::string& entries) {
+    const Outcome ran =
+        run_lockstep({"run", tree, "--mock", "--clock", "virtual", "--rate", "1", "--view", "none",
+                      "--record", run, "--mock-output", "seen=" + seen, "--mock-output", "size=3",
+                      "--record-entries", entries});
+    INFO(ran.err);
+    REQUIRE(ran.code == 0);
+    const Outcome made = run_lockstep({"log", "scenario", run});
+    INFO(made.err);
+    CHECK(made.code == 0);
+    // Both have the same notes.
+    for (const std::string& line : lines(made.err)) {
+      const auto begin = line.find("note: ");
+      if (begin != line.npos) CHECK(contains(made.out, line.substr(begin + 6, 20)));
+    }
+    return made.err;
+  };
+  const std::string long_text(300, 'x');
+  CHECK(notes("short", "all").empty());
+  const std::string too_long =
+      "what 'T/Sequence/look' wrote to 'seen' in tick 1 is not recorded: the value has more than "
+      "256 bytes";
+  CHECK(contains(notes(long_text, "all"), too_long));
+  const std::string lacks = "the recording does not have the values of ";
+  CHECK(contains(notes("short", "none"), lacks + "'seen', 'size': what"));
+  CHECK(contains(notes("short", "size"), lacks + "'seen': what"));
+  // Nothing in the tree gives it a value.
+  const std::string set = directory.file("set.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="T">
+<ScriptCondition code="k == 1"/></BehaviorTree></root>)");
+  for (const std::string entries : {"all", "none"}) {
+    REQUIRE(run_lockstep({"run", set, "--clock", "virtual", "--view", "none", "--set", "k=1",
+                          "--record", run, "--record-entries", entries})
+                .code == 0);
+    const Outcome made = run_lockstep({"log", "scenario", run});
+    CHECK(contains(made.err, lacks + "'k': what") == (entries == "none"));
+  }
+}
+
 TEST_CASE("a recording in parts, and one of the wall clock, are repeated") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml",
