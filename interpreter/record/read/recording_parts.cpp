@@ -1,6 +1,7 @@
 #include "record/read/recording_parts.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -64,7 +65,8 @@ std::optional<BeforeCut> lines_before(const std::string& path, std::uint64_t tic
 
 }  // namespace
 
-RecordingParts::RecordingParts(const std::string& recording) : recording_(recording), text_(kRead) {
+RecordingParts::RecordingParts(const std::string& recording)
+    : recording_(recording), process_(recording), text_(kRead) {
   for (const std::string& path : own_files(recording)) parts_.push_back({path});
   for (const std::string& resumed : resumed_recordings(recording)) continue_with(resumed);
 }
@@ -74,29 +76,33 @@ void RecordingParts::continue_with(const std::string& resumed) {
   if (files.empty()) return parts_.push_back({resumed});  // it is missing: reading ends there
   const auto [tick, is_first] = begin_of(files.front());
   if (tick == 0) return;  // it continues nothing: another recording of that name
-  if (!is_first) {  // files before it were deleted, and those of the process before are older still
+  if (is_first) {
+    if (!parts_.empty()) end_before(tick);
+  } else if (!is_open_) {  // files before it were deleted, so those of the process before were too
     parts_.clear();
-  } else if (!parts_.empty()) {
-    end_before(tick);
   }
   for (const std::string& path : files) parts_.push_back({path});
-  is_resumed_ = true;
+  process_ = resumed;
 }
 
 // What came after the state that the run continued from was lost with it, so the run did it again.
+// What has been read until then stays: the text then has it twice.
 void RecordingParts::end_before(std::uint64_t tick) {
-  while (parts_.size() > 1 &&
+  const std::size_t read_parts = is_open_ ? at_ + 1 : 1;
+  while (parts_.size() > read_parts &&
          (parts_.back().path.empty() || first_tick_of(parts_.back().path) >= tick))
     parts_.pop_back();
   Part& last = parts_.back();
-  if (const auto before = lines_before(last.path, tick)) {
-    last.size = before->size;
-    last.is_cut = true;
-    std::string lines;
-    if (before->next < tick) lines = json_lines::lost(tick - before->next, before->next);
-    lines += json_lines::part_end(tick);
-    parts_.push_back({.path = "", .lines = lines, .size = lines.size()});
-  }
+  const auto before = lines_before(last.path, tick);
+  if (!before) return;
+  const std::uint64_t is_read = is_open_ && parts_.size() == at_ + 1 ? end_ - begin_ : 0;
+  const bool ends_in_line = is_read > before->size && !ends_line_;
+  last.size = std::max(before->size, is_read);
+  last.is_cut = true;
+  std::string lines = ends_in_line ? "\n" : "";
+  if (before->next < tick) lines += json_lines::lost(tick - before->next, before->next);
+  lines += json_lines::part_end(tick);
+  parts_.push_back({.path = "", .lines = lines, .size = lines.size()});
 }
 
 std::optional<RecordingParts::Place> RecordingParts::place_of(std::uint64_t byte) {
@@ -138,6 +144,7 @@ RecordingParts::int_type RecordingParts::underflow() {
   if (count == 0) return traits_type::eof();
   setg(text_.data(), text_.data(), text_.data() + count);
   end_ += count;
+  ends_line_ = text_[count - 1] == '\n';
   return traits_type::to_int_type(text_.front());
 }
 
@@ -152,14 +159,30 @@ std::size_t RecordingParts::read() {
 
 bool RecordingParts::knows_next() {
   if (at_ + 1 < parts_.size()) return true;
-  if (is_resumed_) return false;
-  // The first parts of a run that goes on may be deleted.
-  for (std::string& it : parts_to_read(recording_)) {
-    const std::string& last = parts_.back().path;
-    const bool is_later = it.size() > last.size() || (it.size() == last.size() && it > last);
-    if (is_later) parts_.push_back({std::move(it)});
+  std::error_code none;
+  if (!std::filesystem::exists(process_, none)) {
+    // The first parts of a run that goes on may be deleted.
+    for (std::string& it : parts_to_read(process_)) {
+      const std::string& last = parts_.back().path;
+      const bool is_later = it.size() > last.size() || (it.size() == last.size() && it > last);
+      if (is_later) parts_.push_back({std::move(it)});
+    }
   }
+  if (at_ + 1 == parts_.size()) look_for_next_process();
   return at_ + 1 < parts_.size();
+}
+
+// The run may have been cut while it is read, and continues in another file.
+void RecordingParts::look_for_next_process() {
+  const std::vector<std::string> resumed = resumed_recordings(recording_);
+  auto next = resumed.begin();
+  if (process_ != recording_) {
+    next = std::ranges::find(resumed, process_);
+    if (next != resumed.end()) ++next;
+  }
+  for (; next != resumed.end() && at_ + 1 == parts_.size(); ++next) {
+    if (!own_files(*next).empty()) continue_with(*next);
+  }
 }
 
 void RecordingParts::open(std::size_t part) {
@@ -224,10 +247,14 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
   return position;
 }
 
-NamedRecording::NamedRecording(const std::string& path) {
+NamedRecording::NamedRecording(const std::string& path, Reading reading) {
   std::error_code none;
   const bool is_whole = std::filesystem::exists(path, none);
-  if (!resumed_recordings(path).empty() || (!is_whole && !parts_to_read(path).empty())) {
+  const bool may_go_on = reading == Reading::GoesOn &&
+                         std::filesystem::is_regular_file(path, none) &&
+                         access(path.c_str(), R_OK) == 0;
+  if (may_go_on || !resumed_recordings(path).empty() ||
+      (!is_whole && !parts_to_read(path).empty())) {
     parts_ = std::make_unique<RecordingParts>(path);
     all_.rdbuf(parts_.get());
   } else {

@@ -51,25 +51,28 @@ class RecordingParts final : public TextOfFiles {
   bool knows_next();
   std::size_t read();
   std::uint64_t size_of(std::size_t part);
+  void look_for_next_process();
   void continue_with(const std::string& resumed);
   void end_before(std::uint64_t tick);
 
   const std::string recording_;
   std::vector<Part> parts_;
-  bool is_resumed_ = false;
-  std::size_t at_ = 0;  // the part that is open
+  std::string process_;  // the recording of the process that has the last part
+  std::size_t at_ = 0;   // the part that is open
   bool is_open_ = false;
   std::unique_ptr<DecompressedFile> file_;  // none: a part without one
   std::uint64_t begin_ = 0;                 // of its text, in all
   std::vector<char> text_;
   std::uint64_t end_ = 0;  // behind what has been read, in all
+  bool ends_line_ = true;  // what has been read
 };
 
 // A recording by its name: a file, or its parts where there is no such file, and behind these the
 // recordings of the runs that continued it after cuts. Not open: errno says why.
 class NamedRecording {
  public:
-  explicit NamedRecording(const std::string& path);
+  enum class Reading : bool { Once, GoesOn };  // it goes on at the end: the run may be cut later
+  explicit NamedRecording(const std::string& path, Reading reading = Reading::Once);
   bool is_open() const { return parts_ != nullptr || file_->is_open(); }
   std::istream& text() { return parts_ != nullptr ? all_ : file_->text(); }
 

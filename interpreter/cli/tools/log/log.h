@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/outputs.h"
+#include "record/read/recording_parts.h"
 #include "record/read/recording_reader.h"
 #include "record/tick_range.h"
 
@@ -29,7 +30,8 @@ int with_recording(const std::string& path, const std::function<int(RecordingRea
 // The recording and its parts, which must not be overwritten.
 std::vector<NamedFile> files_of(const std::string& path);
 // The two steps of it.
-int with_file(const std::string& path, const std::function<int(std::istream&)>& use);
+int with_file(const std::string& path, const std::function<int(std::istream&)>& use,
+              NamedRecording::Reading reading = NamedRecording::Reading::Once);
 int read_recording(std::istream& in, const std::string& path,
                    const std::function<int(RecordingReader&)>& use);
 // Reads the recording, or a range of it, and meanwhile gives `write` the parts of the web page that

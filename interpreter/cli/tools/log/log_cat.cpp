@@ -1,15 +1,22 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "base/compression/decompressed.h"
+#include "base/json/reader.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
+#include "record/lines.h"
 #include "record/read/recording_json.h"
 #include "run/stop_signals.h"
 
@@ -22,17 +29,55 @@ struct LogCatOptions {
 };
 
 struct Ending {
+  bool follows = false;
   bool is_there = false;    // of the run
   bool is_of_part = false;  // the last line says that the run goes on in another part
 };
+
+bool is_header(std::string_view line) {
+  return line.find("\"lockstep_recording\"") != std::string_view::npos;
+}
+
+bool is_json(std::string& line) {
+  try {
+    JsonReader().read(line, [](JsonObject object) { object.read({}); });
+    return true;
+  } catch (const JsonError&) {
+    return false;
+  }
+}
+
+// Reports that the run was cut, if this is the header of the process that continues it.
+void tell_resumed(std::string& header) {
+  std::optional<double> after;
+  std::uint64_t first = 0;
+  try {
+    JsonReader().read(header, [&](JsonObject object) {
+      object.read({{lines::kHeader["first_tick"], into(first), kMayLack},
+                   {lines::kHeader["resumed_after_s"],
+                    [&](JsonValue value) { after = value.number(); }, kMayLack}});
+    });
+  } catch (const JsonError&) {
+    return;
+  }
+  if (!after) return;
+  print_note(
+      fmt::format("the run was cut, and continues from tick {} on, {:.1f} s later", first, *after));
+}
 
 // Whole lines, as long as there are any. The first part of a line waits in `rest` for its end.
 int print_lines(std::istream& in, std::string& rest, Ending& ending) {
   std::string line, lines;
   int written = kExitSuccess;
   while (written == kExitSuccess && std::getline(in, line)) {
+    const bool is_in_pieces = !rest.empty();
     rest += line;
     if (in.eof()) break;
+    if (is_in_pieces && !is_json(rest)) {  // a cut left it
+      rest.clear();
+      continue;
+    }
+    if (ending.follows && is_header(rest)) tell_resumed(rest);
     ending.is_there = ending.is_there || RecordingJson::is_end(rest);
     ending.is_of_part = RecordingJson::is_part_end(rest);
     (lines += rest) += '\n';
@@ -49,7 +94,7 @@ int print_lines(std::istream& in, std::string& rest, Ending& ending) {
 bool begin(std::istream& in, int& written) {
   std::string header;
   std::getline(in, header);
-  if (in.eof() || header.find("\"lockstep_recording\"") == std::string::npos) return false;
+  if (in.eof() || !is_header(header)) return false;
   written = write_results(header += '\n');
   return true;
 }
@@ -58,7 +103,7 @@ int follow(std::istream& in, const LogCatOptions& options) {
   constexpr std::chrono::milliseconds kLook{50};
   if (options.follows) StopSignals::install();
   std::string rest;
-  Ending ending;
+  Ending ending{.follows = options.follows};
   int written = kExitSuccess;
   if (!begin(in, written)) {
     print_error(printable(options.file + ":1: no header of a recording"));
@@ -81,7 +126,8 @@ int follow(std::istream& in, const LogCatOptions& options) {
 }
 
 int cat(const LogCatOptions& options) {
-  return with_file(options.file, [&](std::istream& in) {
+  using Reading = NamedRecording::Reading;
+  const auto print = [&](std::istream& in) {
     try {
       in.exceptions(std::ios_base::badbit);
       return follow(in, options);
@@ -89,7 +135,8 @@ int cat(const LogCatOptions& options) {
       print_error(printable(options.file + ": " + damage.what()));
       return int{kExitInvalidTree};
     }
-  });
+  };
+  return with_file(options.file, print, options.follows ? Reading::GoesOn : Reading::Once);
 }
 
 }  // namespace

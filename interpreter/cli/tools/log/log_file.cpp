@@ -25,7 +25,8 @@ void add_recording_file(CLI::App& app, std::string& file) {
       ->required();
 }
 
-int with_file(const std::string& path, const std::function<int(std::istream&)>& use) {
+int with_file(const std::string& path, const std::function<int(std::istream&)>& use,
+              NamedRecording::Reading reading) {
   if (path == "-") {
     Decompressed buffer(*std::cin.rdbuf());
     std::istream text(&buffer);
@@ -33,7 +34,7 @@ int with_file(const std::string& path, const std::function<int(std::istream&)>& 
   }
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
-  NamedRecording file(path);
+  NamedRecording file(path, reading);
   return file.is_open() ? use(file.text()) : cannot_use("read", path, errno);
 }
 
