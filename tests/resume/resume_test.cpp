@@ -400,6 +400,73 @@ TEST_CASE("record-keep counts the files of all processes, and those deleted are 
   CHECK_FALSE(holds(info.out, "resumed after "));
 }
 
+TEST_CASE("log cat --follow goes on with the run after each cut, and ends with it") {
+  const std::vector<std::vector<std::string>> forms{
+      {"run.jsonl"}, {"run.jsonl.zst"}, {"run.jsonl", "--record-rotate", "0.4s"}};
+  for (const auto& form : forms) {
+    INFO(form.front() << form.back());
+    CutRun run(ours("<Step who='a' ticks='40'/>"));
+    const auto path = [&](const std::string& name) { return run.directory().path(name); };
+    const std::string recording = path(form.front());
+    std::string options;
+    for (auto it = form.begin() + 1; it != form.end(); ++it) options += " " + *it;
+    // What was recorded last is awaited before the run goes on, in two other processes.
+    const std::string script =
+        "run() { \"$0\" run \"$1\" --clock virtual --rate 10 --plugin-path " LOCKSTEP_BINARY_DIR
+        "/tests/cli --view none --checkpoint \"$2\" --record \"$3\"" +
+        options +
+        " --resume >/dev/null 2>&1; }\n"
+        "last() { grep '^{\"tick\"' | tail -n 1; }\n"
+        "await() { until [ \"$(last <\"$4\")\" = \"$(\"$0\" log cat \"$3\" 2>&1 | last)\" ]; do :; "
+        "done; }\n"
+        "CUT_AT=1.2 run \"$@\"\n"
+        "\"$0\" log cat --follow \"$3\" >\"$4\" 2>\"$5\" & follower=$!\n"
+        "await \"$@\"\n"
+        "CUT_AT=1.7 run \"$@\"\n"
+        "await \"$@\"\n"
+        "run \"$@\"\n"
+        "wait $follower\n";
+    const std::string out = path("out"), err = path("err");
+    const Outcome followed =
+        lockstep::host::test::run({.arguments = {"-c", script, LOCKSTEP_BINARY_DIR "/lockstep",
+                                                 run.tree(), run.file(), recording, out, err},
+                                   .environment = {{"LOG", run.log()}},
+                                   .program = "/bin/sh"});
+    INFO(followed.err << read_file(err));
+    CHECK(followed.code == 0);
+    const Outcome all = run_lockstep({"log", "cat", recording});
+    CHECK(all.code == 0);
+    CHECK(read_file(out) == all.out);
+    CHECK(holds(read_file(err), "note: the run was cut, and continues from tick 12 on, "));
+    CHECK(holds(read_file(err), "note: the run was cut, and continues from tick 17 on, "));
+  }
+}
+
+TEST_CASE("a run that is cut does not go on with other entries in its recording") {
+  CutRun run(
+      ours("<Sequence memory='true'><Script code='n := 0; m := 1'/>"
+           "<Step number='{n}' ticks='9'/></Sequence>"));
+  const std::string recording = run.directory().path("run.jsonl");
+  REQUIRE(run.cut(4, {"--record", recording, "--record-entries", "n"}).code == 128 + SIGKILL);
+  const std::string before = read_file(recording);
+  for (const std::string entries : {"all", "none", "m", "n,m"}) {
+    const Outcome other = run.resume({"--record", recording, "--record-entries", entries});
+    INFO(other.err);
+    CHECK(other.code == 2);
+    CHECK(holds(other.err,
+                "run.jsonl', the recording of the run before the cut, has other "
+                "blackboard entries: 'n'"));
+    CHECK(read_file(recording) == before);
+  }
+  // It was not lost.
+  REQUIRE(run.cut(6, {"--record", recording, "--record-entries", "n", "--resume"}).code ==
+          128 + SIGKILL);
+  const std::string other = run.directory().path("other.jsonl");
+  CHECK(run.resume({"--record", other, "--record-entries", "none"}).code == 0);
+  CHECK(run_lockstep({"log", "info", recording}).code == 0);
+  CHECK(run_lockstep({"log", "info", other}).code == 0);
+}
+
 TEST_CASE("a recording of a process in between that is missing is an error") {
   CutRun run(ours("<Step who='a' ticks='40'/>"));
   const std::string recording = run.directory().path("run.jsonl");

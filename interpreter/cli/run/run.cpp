@@ -35,6 +35,7 @@
 #include "leaves/plugin/contract/plugin_clock.h"
 #include "record/part_names.h"
 #include "record/write/recorder.h"
+#include "record/write/same_entries.h"
 #include "run/crash_report.h"
 #include "run/cut_text.h"
 #include "run/loop.h"
@@ -634,6 +635,12 @@ int run(RunCommandOptions options) {
   if (!kept) return kept.error();
   if (*kept != nullptr && (*kept)->continues() && !options.record.empty()) {
     options.rotation.before = files_that_exist(options.record);
+    const auto same = check_same_entries(options.rotation.before, shape_of(runnable.tree),
+                                         recorded_keys(options));
+    if (!same) {
+      print_error(printable(same.error().message), same.error().hint);
+      return kExitUsage;
+    }
     options.record = name_of_resumed(options.record);
   }
   Diagnostics notes;

@@ -114,7 +114,7 @@ void RecordingReader::take(const RecordedPartEnd& end) {
 void RecordingReader::begin_part() {
   const RecordingHeader header = format_->header(lines_.text());
   const auto tree_of = [](const RecordingHeader& it) {
-    return std::tuple(it.nodes.size(), it.entries.size(), std::tie(it.id, it.rate_hz, it.tick));
+    return std::tuple(it.nodes.size(), std::tie(it.id, it.rate_hz, it.tick));
   };
   const auto run_of = [](const RecordingHeader& it) {
     return std::tie(it.file, it.version, it.clock, it.seed, it.arguments);
@@ -123,6 +123,10 @@ void RecordingReader::begin_part() {
   const bool is_resumed = header.resumed_after.has_value();
   if (tree_of(header) != tree_of(header_) || (!is_resumed && run_of(header) != run_of(header_))) {
     throw JsonError("the next part is of another run");
+  }
+  if (!std::ranges::equal(header.entries, header_.entries, {}, &ShapeEntry::key,
+                          &ShapeEntry::key)) {
+    throw JsonError("the next part has other blackboard entries, as with another --record-entries");
   }
   if (header.first_tick != next_tick_) {
     throw JsonError(fmt::format("the next part begins with tick {}, expected {}", header.first_tick,
