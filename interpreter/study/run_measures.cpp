@@ -16,7 +16,8 @@ RunMeasures::RunMeasures(const Shape& shape, std::span<const MeasureSpec> measur
   values_.resize(columns_.size(), kNoValue);
 }
 
-void RunMeasures::run_started(const Moment&, const RunStart&) {
+void RunMeasures::run_started(const Moment&, const RunStart& start) {
+  real_time_ = start.real_time;
   measuring_.reset();
   std::ranges::fill(values_, kNoValue);
 }
@@ -29,8 +30,9 @@ void RunMeasures::run_ended(const Moment&, const RunEnd& end) {
   const EndView view{.ticks = end.ticks,
                      .last = last_,
                      .rate = rate_,
-                     .real_time = false,
-                     .succeeded = end.result() == RunResult::Success};
+                     .real_time = real_time_,
+                     .succeeded = end.result() == RunResult::Success,
+                     .ended = end.time};
   double* next = values_.data();
   for (std::size_t column = 0; column < measuring_.columns().size(); ++column) {
     *next++ = measuring_.value(column, view);

@@ -37,6 +37,7 @@ class RunMeasures final : public Observer {
  private:
   Measuring measuring_;
   double rate_;
+  bool real_time_ = false;
   Nanoseconds last_{0};  // tick of the run
   std::vector<StudyColumn> columns_;
   std::vector<double> values_;

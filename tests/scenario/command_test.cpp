@@ -125,6 +125,9 @@ const Law kLaws[] = {
   {"late ticks skip deadlines", R"(<scenario name="a" rate="10"><leaf path="*" does="R*4 S"/>
    <late tick="1" by="0.35"/><expect result="success" ticks="5" time="0.69..0.71"/></scenario>)", 0,
    "1 passed"},
+  {"the measured duration has the late ticks too", R"(<scenario name="a" rate="10"><leaf path="*" does="R*4 S"/>
+   <late tick="1" by="0.35"/><expect>duration &gt; 0.69</expect><expect>duration &lt; 0.71</expect></scenario>)", 0,
+   "1 passed"},
   {"a late tick behind the end", R"(<scenario name="a"><late tick="4" by="0.3"/>
    <expect result="success"/></scenario>)", 1, "tick 4 does not come: the run ends after 1 tick"},
   {"many runs", R"(<scenario name="a" runs="20"><leaf of="Advance" from="plugin"/>
