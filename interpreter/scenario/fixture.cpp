@@ -24,10 +24,6 @@ Tree searched_tree(Definition definition, PlayedLeaves& played) {
   return played_tree(definition, {}, played);
 }
 
-bool is_start(const SetEntry& it) {
-  return it.time.value_or(static_cast<double>(it.tick)) == 0;
-}
-
 }  // namespace
 
 Fixture::Key Fixture::key_of(const Scenario& scenario) {
@@ -39,7 +35,7 @@ Fixture::Key Fixture::key_of(const Scenario& scenario) {
 StartValues Fixture::start_values(const Scenario& scenario) {
   StartValues values;
   for (const SetEntry& it : scenario.changes) {
-    if (is_start(it)) values[it.key] = it.value;
+    if (it.is_start()) values[it.key] = it.value;
   }
   return values;
 }
@@ -47,7 +43,7 @@ StartValues Fixture::start_values(const Scenario& scenario) {
 StartValues Fixture::later_values(const Scenario& scenario) {
   StartValues values;
   for (const SetEntry& it : scenario.changes) {
-    if (!is_start(it)) values.try_emplace(it.key, it.value);
+    if (!it.is_start()) values.try_emplace(it.key, it.value);
   }
   return values;
 }

@@ -31,6 +31,8 @@ struct SetEntry {
   Place key_place = {}, value_place = {};
   std::uint64_t tick = 0;
   std::optional<double> time = {};  // s; if it is there, `tick` does not count
+
+  bool is_start() const { return time.value_or(static_cast<double>(tick)) == 0; }
 };
 
 // What a person answers: before a tick, or from the first at a time, once; or whenever it is asked.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 
@@ -113,29 +114,36 @@ class Reader {
     check_name(scenario, name);
     read_head(at, scenario);
     bool says_expect = false;
+    std::optional<Place> one_run;  // the first row that is about one
     for (const std::uint32_t child : children_in(elements_, at)) {
       says_expect |= elements_[child].tag == "expect";
       if (elements_[child].tag == scenario_words::kRow) continue;
+      const std::size_t before = rows_of_one_run(scenario);
       read_part(child, scenario, "elements of 'scenario'");
+      if (!one_run && rows_of_one_run(scenario) > before) one_run = elements_[child].place;
     }
     if (scenario.tree.empty()) {
       report_.at("bad-scenario"_code, elements_[at].place, "the scenario has no tree",
                  "write tree=\"FILE.xml\", here or in <scenarios>");
     }
-    const bool says_one_run = scenario.bindings.size() > common_.bindings.size() ||
-                              scenario.changes.size() > common_.changes.size() ||
-                              scenario.answers.size() > common_.answers.size() ||
-                              scenario.late.size() > common_.late.size();
-    if (scenario.is_verified && says_one_run) {
-      report_.at("bad-scenario"_code, elements_[at].place,
+    if (scenario.is_verified && one_run) {
+      report_.at("bad-scenario"_code, *one_run,
                  "a scenario with verify=\"yes\" is about all behaviors, not about one run",
-                 "declare what leaves may do in a leaf model: leaves=\"NAME.leaves.xml\"");
+                 "declare what leaves may do in a leaf model: leaves=\"NAME.leaves.xml\"; only "
+                 "values before the first tick can be set");
     }
     if (scenario.expectations.empty() && !scenario.is_verified && !says_expect) {
       report_.at("bad-scenario"_code, elements_[at].place, "the scenario expects nothing",
                  "write <expect result=\"success\"/>");
     }
     file_.scenarios.push_back(std::move(scenario));
+  }
+
+  // All behaviors may start with a value.
+  static std::size_t rows_of_one_run(const Scenario& it) {
+    const auto later = std::ranges::count_if(it.changes, std::not_fn(&SetEntry::is_start));
+    return it.bindings.size() + it.answers.size() + it.late.size() +
+           static_cast<std::size_t>(later);
   }
 
   void check_name(const Scenario& scenario, const Attribute& name) {

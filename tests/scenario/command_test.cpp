@@ -208,6 +208,25 @@ TEST_CASE("the leaves of a leaf model know the barriers that <set> gives, as tho
   CHECK(folder.test().code == 0);
 }
 
+TEST_CASE("each verified scenario of a file has its own start values") {
+  constexpr auto kEntry =
+      R"(<root lockstep="1"><BehaviorTree ID="T"><Check code="goal == 7"/></BehaviorTree></root>)";
+  const auto verified = [](const std::string& set, const std::string& results) {
+    return "<scenario name=\"" + results + "\" verify=\"yes\">" + set + "<expect result=\"" +
+           results + "\"/></scenario>\n";
+  };
+  const Folder folder(verified(R"(<set key="goal" value="7"/>)", "success") +
+                          verified(R"(<set key="goal" value="6" tick="0"/>)", "failure"),
+                      kEntry);
+  const Outcome it = folder.test();
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+  CHECK(contains(it.out, "2 passed"));
+  static_cast<void>(folder.directory().file(
+      "t.test.xml", scenarios(verified(R"(<set key="goal" value="7" tick="3"/>)", "success"))));
+  CHECK(folder.test().code == 3);
+}
+
 TEST_CASE("a limit of a measure of nothing is a mistake") {
   const Folder folder(
       R"(<scenario name="s"><expect>spread &lt; -1</expect></scenario>)",
@@ -423,6 +442,8 @@ TEST_CASE("what is wrong with scenarios is said at its place") {
     {R"(<scenario name="a"><expect result="succes"/></scenario>)", "'result' cannot be 'succes'"},
     {R"(<scenario name="a"/>)", "the scenario expects nothing"},
     {R"(<scenario name="a" verify="yes"><leaf path="left" does="S"/></scenario>)",
+     "2:33: error: a scenario with verify=\"yes\" is about all behaviors, not about one run"},
+    {R"(<scenario name="a" verify="yes"><late tick="1" by="1"/></scenario>)",
      "is about all behaviors, not about one run"},
     {R"(<scenario name="a"><set key="n" value="1"/><expect result="success"/></scenario>)",
      "the tree has no entry 'n'"},
