@@ -5,11 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <string_view>
+#include <utility>
 
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
+#include "base/system/output_file.h"
 #include "base/system/replace_text.h"
 #include "language/document/document.h"
 #include "language/document/file.h"
 #include "language/document/value_text.h"
+#include "scenario/binding_reader.h"
 
 namespace lockstep::host {
 namespace {
@@ -32,15 +39,39 @@ std::string words_text(const std::vector<LeafWord>& words) {
   return text;
 }
 
-// The names in the text of scenarios, as they are written there.
-std::vector<std::string> names_in(const std::string& text) {
-  constexpr std::string_view kBefore = "<scenario name=\"";
-  std::vector<std::string> names;
-  for (auto at = text.find(kBefore); at != std::string::npos; at = text.find(kBefore, at)) {
-    at += kBefore.size();
-    names.push_back(text.substr(at, text.find('"', at) - at));
+struct Existing {
+  std::string text;
+  std::unique_ptr<Document> document;
+  std::size_t end = 0;  // where more scenarios come
+};
+
+Result<Existing> read_existing(const std::string& path) {
+  auto text = read_file(path, Document::kMaxBytes);
+  if (!text) return problem(fmt::format("cannot read '{}': {}", path, text.error().message));
+  Diagnostics diagnostics;
+  auto document = Document::parse(path, *text, diagnostics);
+  const auto end = text->rfind(kEnd);
+  if (document == nullptr || document->elements()[0].tag != "scenarios" ||
+      end == std::string::npos) {
+    return problem(fmt::format("'{}' is not a file of scenarios", path),
+                   "it ends with </scenarios>");
+  }
+  return Existing{std::move(*text), std::move(document), end};
+}
+
+std::vector<std::string_view> names_in(const Document& document) {
+  std::vector<std::string_view> names;
+  for (std::uint32_t at = 0; at < document.elements().size(); ++at) {
+    if (document.elements()[at].tag != "scenario") continue;
+    if (const Attribute* name = document.find_attribute(at, "name")) names.push_back(name->value);
   }
   return names;
+}
+
+// The name of a file in another one.
+std::string named_in(const std::string& path, const std::string& file) {
+  const auto folder = std::filesystem::path(path).parent_path();
+  return std::filesystem::proximate(file, folder.empty() ? "." : folder).string();
 }
 
 std::string ending_text(const RecordedWords& words) {
@@ -59,6 +90,7 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
     text += fmt::format("  <!-- {} -->\n", safe);
   }
   text += fmt::format("  <scenario name=\"{}\"", escaped(about.name));
+  if (!about.tree.empty()) text += fmt::format(" tree=\"{}\"", escaped(about.tree));
   if (!about.main.empty()) text += fmt::format(" main=\"{}\"", escaped(about.main));
   if (words.rate) text += fmt::format(" rate=\"{}\"", *words.rate);
   if (!words.tick.empty()) text += fmt::format(" tick=\"{}\"", escaped(words.tick));
@@ -93,27 +125,47 @@ std::string scenario_file(const std::string& tree, const std::string& scenarios)
                      kEnd);
 }
 
-Result<void> add_to_scenario_file(const std::string& path, const std::string& tree,
-                                  const std::string& scenarios) {
-  if (std::filesystem::exists(path)) {
-    const auto before = read_file(path, Document::kMaxBytes);
-    if (!before) return problem(fmt::format("cannot read '{}': {}", path, before.error().message));
-    const auto end = before->rfind(kEnd);
-    if (end == std::string::npos) {
-      return problem(fmt::format("'{}' is not a file of scenarios", path),
-                     "it ends with </scenarios>");
-    }
-    const auto there = names_in(*before);
-    for (const std::string& name : names_in(scenarios)) {
-      if (std::ranges::find(there, name) == there.end()) continue;
-      return problem(fmt::format("'{}' has a scenario '{}' already", path, name),
-                     "rename that, or name another file");
-    }
-    return replace_text(path, *before, std::string(*before).insert(end, scenarios));
+Result<std::string> tree_in_scenario_file(const std::string& path, const ScenarioTree& tree) {
+  if (tree.file == "-") {
+    return problem("a scenario needs a file with its tree, and this one was read from stdin",
+                   "give the tree as a file");
   }
-  const auto folder = std::filesystem::path(path).parent_path();
-  const auto from = std::filesystem::proximate(tree, folder.empty() ? "." : folder);
-  return create_text(path, scenario_file(from.string(), scenarios));
+  if (!std::filesystem::exists(path)) return std::string();
+  const auto existing = read_existing(path);
+  if (!existing) return tl::unexpected(existing.error());
+  const Attribute* const file = existing->document->find_attribute(0, "tree");
+  const Attribute* const main = existing->document->find_attribute(0, "main");
+  if (file != nullptr && !is_same_file(beside(path, file->value), tree.file)) {
+    return problem(fmt::format("'{}' has scenarios of the tree '{}', not of '{}'", path,
+                               brief(file->value), named_in(path, tree.file)),
+                   "name another file");
+  }
+  if (main != nullptr && tree.main.empty() && main->value != tree.id) {
+    return problem(fmt::format("'{}' has scenarios of the BehaviorTree '{}', not of '{}'", path,
+                               brief(main->value), tree.id),
+                   "name another file");
+  }
+  return file != nullptr ? std::string() : named_in(path, tree.file);
+}
+
+Result<void> add_to_scenario_file(const std::string& path, const ScenarioTree& tree,
+                                  const std::string& scenarios) {
+  if (const auto fits = tree_in_scenario_file(path, tree); !fits)
+    return tl::unexpected(fits.error());
+  const std::string whole = scenario_file(named_in(path, tree.file), scenarios);
+  if (!std::filesystem::exists(path)) return create_text(path, whole);
+  const auto existing = read_existing(path);
+  if (!existing) return tl::unexpected(existing.error());
+  Diagnostics diagnostics;
+  const auto added = Document::parse(path, whole, diagnostics);
+  const auto there = names_in(*existing->document);
+  for (const std::string_view name : names_in(*added)) {
+    if (std::ranges::find(there, name) == there.end()) continue;
+    return problem(fmt::format("'{}' has a scenario '{}' already", path, name),
+                   "rename that, or name another file");
+  }
+  return replace_text(path, existing->text,
+                      std::string(existing->text).insert(existing->end, scenarios));
 }
 
 }  // namespace lockstep::host

@@ -117,6 +117,71 @@ TEST_CASE("a scenario of a tree that --tree chose is about that tree") {
   CHECK(contains(played.out, "2 scenarios: 1 passed, 1 failed"));
 }
 
+TEST_CASE("the option --save adds no scenario to those of another tree") {
+  const TemporaryDirectory directory;
+  const auto tree_of = [](const std::string& id, const std::string& around) {
+    return "<root lockstep=\"1\" main_tree_to_execute=\"" + id +
+           "\"><plugin name=\"motion\"/><BehaviorTree ID=\"" + id + "\"><" + around +
+           "><Advance name=\"a\" step=\"0.5\"/></" + around +
+           "></BehaviorTree><BehaviorTree ID=\"Other\"><AlwaysSuccess/></BehaviorTree></root>";
+  };
+  std::filesystem::create_directory(directory.path("sub"));
+  const std::string one = directory.file("one.xml", tree_of("One", "ForceSuccess"));
+  const std::string two = directory.file("sub/two.xml", tree_of("Two", "Inverter"));
+  const std::string run = directory.path("run.jsonl"), file = directory.path("all.test.xml");
+  const auto verify = [&](const std::string& tree, const std::string& name) {
+    return run_lockstep({"verify", tree, "--mock", "--property", name + ": never a.ticked", "--out",
+                         directory.path("found"), "--save", file});
+  };
+  REQUIRE(verify(one, "p").code == 1);
+  const std::string before = read_file(file);
+  const std::string other = "has scenarios of the tree 'one.xml', not of 'sub/two.xml'";
+  const Outcome verified = verify(two, "q");
+  CHECK(verified.code == 2);
+  CHECK(contains(verified.err, other));
+  REQUIRE(
+      run_lockstep({"run", two, "--clock", "virtual", "--view", "none", "--record", run}).code ==
+      1);
+  const Outcome recorded = run_lockstep({"log", "scenario", run, "--save", file});
+  CHECK(recorded.code == 2);
+  CHECK(contains(recorded.err, other));
+  CHECK(read_file(file) == before);
+  // The same file by another name.
+  CHECK(verify(directory.path("sub/../one.xml"), "r").code == 1);
+  // Where the file names no tree, each scenario does.
+  static_cast<void>(directory.file("all.test.xml", "<scenarios lockstep=\"1\">\n</scenarios>\n"));
+  CHECK(verify(one, "p").code == 1);
+  CHECK(verify(two, "q").code == 1);
+  CHECK(run_lockstep({"log", "scenario", run, "--save", file}).code == 0);
+  const Outcome played = run_lockstep({"test", file, "--out", directory.path("failed")});
+  INFO(read_file(file) << played.out << played.err);
+  CHECK(contains(played.out, "3 scenarios: 1 passed, 2 failed"));
+  // Another BehaviorTree of the file.
+  static_cast<void>(
+      directory.file("all.test.xml",
+                     "<scenarios lockstep=\"1\" tree=\"one.xml\" main=\"Other\">\n</scenarios>\n"));
+  const Outcome of_main = verify(one, "p");
+  CHECK(of_main.code == 2);
+  CHECK(contains(of_main.err, "of the BehaviorTree 'Other', not of 'One'"));
+}
+
+TEST_CASE("the option --save of a tree that is no file is refused before the search") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="Main">
+<Sequence><Action ID="A" name="a"/></Sequence></BehaviorTree></root>)");
+  const std::string file = directory.path("t.test.xml");
+  const Outcome verified =
+      run({.arguments = {"-c",
+                         "\"$0\" verify - --mock --property 'p: never a.ticked' --out \"$2\" "
+                         "--save \"$3\" < \"$1\"",
+                         LOCKSTEP_BINARY_DIR "/lockstep", tree, directory.path("found"), file},
+           .program = "/bin/sh"});
+  CHECK(verified.code == 2);
+  CHECK(verified.out.empty());
+  CHECK(contains(verified.err, "a scenario needs a file with its tree"));
+  CHECK_FALSE(std::filesystem::exists(file));
+}
+
 TEST_CASE("a counter-example has the results of leaves beside those of scripts around them") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="Main">

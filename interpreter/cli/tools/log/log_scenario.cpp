@@ -25,6 +25,13 @@ struct LogScenarioOptions {
 int write_scenario(const LogScenarioOptions& options, const RecordingHeader& header) {
   const RecordedTree recorded(header, options.tree, options.plugins);
   if (recorded.code() != kExitSuccess) return recorded.code();
+  const ScenarioTree of{recorded.file(), recorded.main(), header.id};
+  const auto tree = options.save.empty() ? Result<std::string>(std::string())
+                                         : tree_in_scenario_file(options.save, of);
+  if (!tree) {
+    print_error(tree.error().message, tree.error().hint);
+    return kExitUsage;
+  }
   const RecordedWords words = read_recorded_words(options.file, recorded.tree());
   if (const int code = report_end(words.outcome); code != kExitSuccess) return code;
   const std::string name =
@@ -32,10 +39,10 @@ int write_scenario(const LogScenarioOptions& options, const RecordingHeader& hea
           ? fmt::format("as in {}", std::filesystem::path(options.file).filename().string())
           : options.name;
   for (const std::string& it : words.notes) print_note(it);
-  const std::string text =
-      to_text(words, {.name = name, .comments = words.notes, .main = recorded.main()});
+  const std::string text = to_text(
+      words, {.name = name, .comments = words.notes, .tree = *tree, .main = recorded.main()});
   if (options.save.empty()) return write_results(scenario_file(recorded.file(), text));
-  const auto saved = add_to_scenario_file(options.save, recorded.file(), text);
+  const auto saved = add_to_scenario_file(options.save, of, text);
   if (saved) return kExitSuccess;
   print_error(saved.error().message, saved.error().hint);
   return kExitUsage;

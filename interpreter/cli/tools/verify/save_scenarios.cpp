@@ -16,8 +16,12 @@ constexpr const char *kAnEnd = "success;failure;skipped",
 
 class ScenarioMaker {
  public:
-  ScenarioMaker(const VerifiedTree& of, const Finding& finding, RecordedWords words)
-      : of_(of), finding_(finding), words_(std::move(words)) {}
+  // `tree`: ScenarioText::tree.
+  ScenarioMaker(const VerifiedTree& of, const Finding& finding, RecordedWords words,
+                const std::string& tree)
+      : of_(of), finding_(finding), words_(std::move(words)) {
+    text_.tree = tree;
+  }
 
   std::string make() {
     const std::string_view what =
@@ -102,7 +106,17 @@ class ScenarioMaker {
 
 }  // namespace
 
+std::optional<std::string> tree_to_save(const std::string& path, const ScenarioTree& of) {
+  const auto tree = tree_in_scenario_file(path, of);
+  if (tree) return *tree;
+  print_error("--save: " + tree.error().message, tree.error().hint);
+  return std::nullopt;
+}
+
 bool save_scenarios(const std::string& path, const VerifyReport& report, const VerifiedTree& of) {
+  const ScenarioTree about{report.tree, of.main, of.tree.id};
+  const auto tree = tree_to_save(path, about);
+  if (!tree) return false;
   std::string scenarios;
   for (const Finding& finding : report.verdict.findings) {
     const auto files = report.files.find(finding.name);
@@ -118,10 +132,10 @@ bool save_scenarios(const std::string& path, const VerifyReport& report, const V
     }
     // A recording does not tell the result of a leaf from that of a script around it.
     words.leaves = files->second.scripts.leaves;
-    scenarios += ScenarioMaker(of, finding, std::move(words)).make();
+    scenarios += ScenarioMaker(of, finding, std::move(words), *tree).make();
   }
   if (scenarios.empty()) return true;
-  const auto saved = add_to_scenario_file(path, report.tree, scenarios);
+  const auto saved = add_to_scenario_file(path, about, scenarios);
   if (!saved) print_error("--save: " + saved.error().message, saved.error().hint);
   return saved.has_value();
 }

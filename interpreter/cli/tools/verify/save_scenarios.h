@@ -1,10 +1,12 @@
 // `verify --save`: counter-examples as scenarios, which `lockstep test` plays again.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli/tools/verify/verify_report.h"
 #include "leaves/play/played_leaves.h"
+#include "scenario/scenario_writer.h"
 #include "verify/trace.h"
 
 namespace lockstep::host {
@@ -19,6 +21,9 @@ struct VerifiedTree {
   Tracer& tracer;
   PlayedLeaves& played;
 };
+
+// ScenarioText::tree of the scenarios. Nothing, with a message, if they cannot be in this file.
+std::optional<std::string> tree_to_save(const std::string& path, const ScenarioTree& of);
 
 // Adds a scenario for each finding that has a recording: it fails as long as the tree has what was
 // found. False, with a message, if it cannot.

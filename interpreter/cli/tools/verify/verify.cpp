@@ -177,6 +177,10 @@ class VerifyCommand {
     paces_ = paces(loaded->definition);
     ignore_pace(loaded->definition);
     const Runnable runnable = make_runnable(std::move(*loaded));
+    // A search may take long.
+    if (!options_.save.empty() &&
+        !tree_to_save(options_.save, {options_.tree, options_.load.main_tree, runnable.tree.id}))
+      return kExitUsage;
     const auto file = read_leaves(options_.leaves, leaves_, diagnostics_);
     if (!file) return refuse();
     auto properties = all_properties(runnable.properties, options_.properties, [&] {
