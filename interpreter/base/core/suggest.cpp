@@ -138,17 +138,16 @@ bool is_slip_of(std::string_view word, std::string_view known) {
   if (!std::ranges::all_of(is, is_letter) || !std::ranges::all_of(be, is_letter)) return false;
   const bool is_swap = is.size() == 2 && be.size() == 2 && lower(is[0]) == lower(be[1]) &&
                        lower(is[1]) == lower(be[0]);
-  const bool is_other = is.size() == 1 && be.size() == 1;
-  if (!is_swap && !is_other && is.size() + be.size() != 1) return false;
-  constexpr std::size_t kLeast = 6, kLeastPart = 3;
-  if (std::min(word.size(), known.size()) < kLeast) return false;
   const std::string_view longer = is.empty() ? known : word;
   const std::string_view part = part_around(longer, begin);
-  const bool is_plural = !is_other && !is_swap && lower(part.back()) == 's' &&
-                         part.data() + part.size() == longer.data() + begin + 1;
-  if (is_plural) return false;
-  return part.size() >= (is_other ? kLeast : kLeastPart) &&
-         (!is_other || part_around(known, begin).size() >= kLeast);
+  const std::size_t place = begin - static_cast<std::size_t>(part.data() - longer.data());
+  constexpr std::size_t kLeast = 6;
+  if (is_swap) return part.size() >= kLeast && place + 2 <= part.size();
+  if (is.size() + be.size() != 1) return false;
+  // "Locked" and "Blocked", "Charge" and "Charger", "Rest" and "Reset" are words.
+  const bool is_inside = place > 0 && place + 1 < part.size();
+  const bool is_doubled = place > 0 && lower(part[place]) == lower(part[place - 1]);
+  return is_inside && part.size() >= (is_doubled ? kLeast : kLeast + 1);
 }
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {

@@ -10,10 +10,10 @@ namespace lockstep::host {
 // and one more for each eight letters.
 bool is_typo_of(std::string_view word, std::string_view known);
 
-// Whether the word is that one beyond doubt: only case, '_' and '-' differ, or in a word of six
-// letters or more one letter is too many, missing or wrong, or two neighbors are swapped. A digit,
-// a plural and a letter that is a word by itself are no slip: 'arm2' and 'move_x' are other things
-// than 'arm1' and 'move_y', and so may be 'lift' and 'left'.
+// Whether the word is that one beyond doubt: only case, '_' and '-' differ, or in a part of many
+// letters one is missing or too many, not at its begin or end, or two neighbors are swapped.
+// Another letter makes another word too often: 'arm2' and 'arm1', 'charge' and 'change'. So does
+// one at the begin or the end: 'locked' and 'blocked'.
 bool is_slip_of(std::string_view word, std::string_view known);
 
 }  // namespace lockstep::host

@@ -373,7 +373,8 @@ class Mending {
   void rename_start(std::string_view wrong, std::string_view right) {
     const TolerantElement* open = nullptr;
     for (const TolerantElement& it : tree_.elements)
-      if (it.tag == wrong && it.begin < place_.begin && it.tag_end <= place_.begin) open = &it;
+      if (it.tag == wrong && it.tag_end <= place_.begin && (!it.is_closed || it.end > place_.begin))
+        open = &it;
     if (open == nullptr) return;
     const ByteRange name = range_of(tree_, open->tag);
     TextEdit edit;

@@ -1,4 +1,5 @@
 #include "base/core/suggest.h"
+#include "base/core/typo.h"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -100,4 +101,34 @@ TEST_CASE("the end of a path reads as a name whose '/' is %2F in it") {
   constexpr std::array<std::string_view, 2> kPaths = {"m/a", "m/go%2Fhome"};
   CHECK(suggest_path("go/home", kPaths, "its leaves") == "did you mean 'm/go%2Fhome'?");
   CHECK(suggest_path("xyz", kPaths, "its leaves") == "its leaves: 'm/a', 'm/go%2Fhome'");
+}
+TEST_CASE("a slip is a name that cannot have been meant otherwise") {
+  const std::pair<std::string_view, std::string_view> slips[] = {
+      {"Sequnce", "Sequence"},        {"Seqeunce", "Sequence"}, {"Sequuence", "Sequence"},
+      {"Inverer", "Inverter"},        {"sequence", "Sequence"}, {"fetch-cup", "fetch_cup"},
+      {"IsBateryLow", "IsBatteryLow"}};
+  for (const auto& [word, known] : slips) {
+    INFO(word);
+    CHECK(is_slip_of(word, known));
+  }
+  const std::pair<std::string_view, std::string_view> others[] = {{"OpenGripper", "CloseGripper"},
+                                                                  {"IsDoorClosed", "IsDoorOpen"},
+                                                                  {"MoveArm2", "MoveArm1"},
+                                                                  {"max_force", "min_force"},
+                                                                  {"move_x", "move_y"},
+                                                                  {"MoveX", "MoveY"},
+                                                                  {"ChargeTool", "ChangeTool"},
+                                                                  {"EjectPart", "RejectPart"},
+                                                                  {"RestArm", "ResetArm"},
+                                                                  {"IsDoorLocked", "IsDoorBlocked"},
+                                                                  {"UnloadPallet", "UploadPallet"},
+                                                                  {"arms", "arm"},
+                                                                  {"Charger", "Charge"},
+                                                                  {"second", "seconds"},
+                                                                  {"lift", "left"}};
+  for (const auto& [word, known] : others) {
+    INFO(word);
+    CHECK_FALSE(is_slip_of(word, known));
+    CHECK_FALSE(is_slip_of(known, word));
+  }
 }
