@@ -90,6 +90,45 @@ std::optional<Found> found_in(const Names& names, std::string_view name) {
   return found;
 }
 
+// The chunks of such a file are compressed, so only the library that wrote it is looked at.
+bool is_part_of_mcap(const std::string& path, std::uint64_t number) {
+  constexpr std::uint64_t kMost = 100'000;  // of parts; a date has more digits
+  constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+  char begin[64] = "";
+  std::ifstream(path, std::ios::binary).read(begin, sizeof begin - 1);
+  const std::string_view text(begin, sizeof begin);
+  return number < kMost && text.starts_with(kMagic) && text.find("lockstep") != text.npos;
+}
+
+// Of what a crash has left, the name decides: nothing, or the begin of a header.
+bool may_be_header(std::string_view text) {
+  static const std::string kBegin = fmt::format("{{\"{}\":", lines::kHeader.fields[0].key);
+  return text.substr(0, kBegin.size()) == std::string_view(kBegin).substr(0, text.size());
+}
+
+// A part behind the first one has its first tick in its header.
+bool is_part(const std::string& path, std::uint64_t number) {
+  if (number == 1) return true;
+  if (path.ends_with(".mcap")) return is_part_of_mcap(path, number);
+  std::string header;
+  try {
+    DecompressedFile file(path);
+    std::getline(file.text(), header);
+    if (!may_be_header(header)) return false;
+    bool has_first_tick = false;
+    JsonReader().read(header, [&](JsonObject all) {
+      all.each_field([&](std::string_view name, JsonValue) {
+        has_first_tick |= name == lines::kHeader["first_tick"];
+      });
+    });
+    return has_first_tick;
+  } catch (const JsonError&) {
+    return true;
+  } catch (const CannotDecompress&) {
+    return true;
+  }
+}
+
 // In no order. A folder that cannot be read has none.
 std::vector<Found> all_files(const Names& names) {
   std::vector<Found> all;
@@ -98,7 +137,8 @@ std::vector<Found> all_files(const Names& names) {
   for (std::filesystem::directory_iterator it(folder, none), end; !none && it != end;
        it.increment(none)) {
     const auto found = found_in(names, it->path().filename().string());
-    if (found && it->is_regular_file(none)) all.push_back(*found);  // no pipe, no device
+    if (!found || !it->is_regular_file(none)) continue;  // no pipe, no device
+    if (found->part == 0 || is_part(it->path().string(), found->part)) all.push_back(*found);
   }
   return all;
 }
@@ -106,56 +146,12 @@ std::vector<Found> all_files(const Names& names) {
 // In their order, each once.
 using Numbers = std::set<std::uint64_t>;
 
-enum class Content : unsigned char { Part, Other, Unknown };
-
-// The chunks of such a file are compressed, so only the library that wrote it is looked at.
-Content content_of_mcap(const std::string& path, std::uint64_t number) {
-  constexpr std::uint64_t kMost = 100'000;  // of parts; a date has more digits
-  constexpr std::string_view kMagic = "\x89MCAP0\r\n";
-  char begin[64] = "";
-  std::ifstream(path, std::ios::binary).read(begin, sizeof begin - 1);
-  const std::string_view text(begin, sizeof begin);
-  const bool is_ours = text.starts_with(kMagic) && text.find("lockstep") != std::string_view::npos;
-  return is_ours && number < kMost ? Content::Part : Content::Other;
-}
-
-// A part behind the first one has its first tick in its header.
-Content content_of(const std::string& path, std::uint64_t number) {
-  if (number == 1) return Content::Part;
-  if (path.ends_with(".mcap")) return content_of_mcap(path, number);
-  bool has_first_tick = false;
-  try {
-    DecompressedFile file(path);
-    std::string header;
-    if (!std::getline(file.text(), header)) return Content::Unknown;
-    JsonReader().read(header, [&](JsonObject all) {
-      all.each_field([&](std::string_view name, JsonValue) {
-        has_first_tick |= name == lines::kHeader["first_tick"];
-      });
-    });
-  } catch (const JsonError&) {
-    return Content::Unknown;
-  } catch (const CannotDecompress&) {
-    return Content::Unknown;
-  }
-  return has_first_tick ? Content::Part : Content::Other;
-}
-
-Numbers parts_in(const std::string& recording, const std::function<bool(Content)>& is_wanted) {
+Numbers parts_in(const std::string& recording) {
   Numbers numbers;
   for (const Found& it : all_files(Names(recording))) {
-    const bool is_named = it.resumed == 0 && it.part > 0;
-    if (is_named && is_wanted(content_of(part_name(recording, it.part), it.part)))
-      numbers.insert(it.part);
+    if (it.resumed == 0 && it.part > 0) numbers.insert(it.part);
   }
   return numbers;
-}
-
-bool is_part(Content content) {
-  return content == Content::Part;
-}
-bool may_be_part(Content content) {
-  return content != Content::Other;
 }
 
 // Adds the first of each gap.
@@ -183,12 +179,11 @@ std::string part_name(const std::string& recording, std::uint64_t number) {
 }
 
 std::vector<std::string> parts_that_exist(const std::string& recording) {
-  return named(parts_in(recording, is_part),
-               [&](std::uint64_t it) { return part_name(recording, it); });
+  return named(parts_in(recording), [&](std::uint64_t it) { return part_name(recording, it); });
 }
 
 std::vector<std::string> parts_to_read(const std::string& recording) {
-  return named(with_gaps(parts_in(recording, may_be_part)),
+  return named(with_gaps(parts_in(recording)),
                [&](std::uint64_t it) { return part_name(recording, it); });
 }
 
@@ -214,9 +209,11 @@ std::vector<std::string> files_that_exist(const std::string& recording) {
 
 std::string name_of_resumed(const std::string& recording) {
   const Names names(recording);
-  std::optional<std::uint64_t> last;
-  for (const Found& it : all_files(names)) last = std::max(last.value_or(0), it.resumed);
-  return last ? names.whole(*last + 1) : recording;
+  std::uint64_t next = 0;
+  for (const Found& it : all_files(names)) next = std::max(next, it.resumed + 1);
+  // In a folder that cannot be listed, each name can be looked at.
+  for (std::error_code none; std::filesystem::is_regular_file(names.whole(next), none);) ++next;
+  return names.whole(next);
 }
 
 }  // namespace lockstep::host

@@ -14,8 +14,7 @@ std::string part_name(const std::string& recording, std::uint64_t number);
 // Those that are there, in their order. A file with such a name is none if it is another recording,
 // as "mission.20261128.jsonl" of a user who writes one for each day, or no recording at all.
 std::vector<std::string> parts_that_exist(const std::string& recording);
-// The same, with those that may be damaged, and with the first of each gap between them: who opens
-// it can report that.
+// The same, and the first of each gap between them: who opens it can report that.
 std::vector<std::string> parts_to_read(const std::string& recording);
 
 // A run that continued after cuts has a recording of each process: run.jsonl, run.resumed-1.jsonl,

@@ -174,6 +174,18 @@ TEST_CASE("a recording of a day, and what is no recording, is no part of another
   CHECK(contains(none.err, "No such file"));
 }
 
+TEST_CASE("what a crash has left of a last part is replaced by the next recording") {
+  for (const std::string left : {"", "{\"lockstep_rec", "{\"lockstep_recording\":1,\"tree\""}) {
+    const TemporaryDirectory parts;
+    record(parts, "run.jsonl", {"--record-rotate", "5s"});
+    const auto all = files_in(parts);
+    std::ignore = parts.file(all.back(), left);
+    record(parts, "run.jsonl", {"--record-rotate", "20s"});
+    CHECK(files_in(parts).size() < all.size());
+    CHECK(run_lockstep({"log", "info", parts.path("run.jsonl")}).code == 0);
+  }
+}
+
 TEST_CASE("on the virtual clock, a run has the same parts each time") {
   const TemporaryDirectory parts;
   for (const std::string name : {"a.jsonl", "b.jsonl"}) {

@@ -488,6 +488,24 @@ TEST_CASE("a recording of a process in between that is missing is an error") {
   CHECK(holds(rest.out, "a part that begins with tick "));
 }
 
+TEST_CASE("a recording of another day is no process of a run that was cut") {
+  CutRun run(ours("<Step who='a' ticks='40'/>"));
+  const std::string recording = run.directory().path("run.jsonl"),
+                    day = run.directory().path("run.20261128.jsonl");
+  REQUIRE(run.cut(4, {"--record", day}).code == 128 + SIGKILL);
+  run.forget();
+  for (const int tick : {4, 8}) {
+    REQUIRE(run.cut(tick, {"--record", recording, "--resume"}).code == 128 + SIGKILL);
+  }
+  CHECK(run.resume({"--record", recording}).code == 0);
+  for (const char* const name : {"run.jsonl", "run.resumed-1.jsonl"})
+    std::filesystem::remove(run.directory().path(name));
+  const Outcome rest = run_lockstep({"log", "info", recording});
+  INFO(rest.err);
+  CHECK(rest.code == 0);
+  CHECK(holds(rest.out, "a part that begins with tick "));
+}
+
 TEST_CASE("log check --leaves blames no leaf for what a cut does") {
   CutRun run(
       ours("<Parallel><Step who='a' ticks='20'/><Move who='b' ticks='20'/>"
