@@ -170,6 +170,7 @@ void KeptRun::go_on(Run& run) {
   const InEngine scope(run.blackboard().lock.get());
   Ticker& ticker = run.ticker();
   ticker.restore(saved_);
+  run.set_now(from_->time);  // until the first tick
   const lockstep_cut told = cut_of(*from_, options_, run.period());
   gap_ = from_seconds(told.gap);
   cut_ = ticker.cut_leaves();

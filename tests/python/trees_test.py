@@ -437,6 +437,13 @@ class TreesTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "the grid of 'g' has the value 'a,b', which --grid splits at its commas"):
             lockstep.study("tree.xml", runs=1, grid={"g": ["a,b"]})
 
+    def test_a_run_that_a_property_ends_is_a_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "tree.xml")
+            file.write_text('<root lockstep="1"><BehaviorTree ID="Main"><Wait seconds="1"/></BehaviorTree></root>')
+            end = lockstep.run(file, property="p: never Wait.running", on_violation="end")
+            self.assertEqual((end.reason, end.code, end.ticks), ("property", 10, 1))
+
     def test_limits_of_a_run(self):
         with tree('<Count ticks="100000"/>', period=0.001) as it:
             end = it.run(max_ticks=10)

@@ -40,7 +40,7 @@ class Count(Action):
         return {"done": self.done}
 
     def restore(self, kept, cut):
-        self.log(f"gap {cut.gap >= 0}, lost {cut.lost_ticks}, held {cut.held}, power {cut.power}, {cut.on_resume}")
+        self.log(f"gap {cut.gap >= 0}, lost {cut.lost_ticks}, held {cut.held}, power {cut.power}, {cut.on_resume}, at {self.now:.1f}")
         if self.answer == "fails":
             raise Failed("the table is gone")
         self.done = kept["done"]
@@ -112,7 +112,7 @@ def check_continues(directory, language, plugins, leaf, at, parallel="Parallel")
 def test_python(directory):
     reported = check_continues(directory, OURS, '<plugin name="count" program="count.py"/>', '<Count name="it"/>',
                               {0.3: "0.15", 0.8: "0.4"})
-    assert "gap True, lost 1, held False, power False, restart" in reported, reported
+    assert "gap True, lost 1, held False, power False, restart, at 0.2" in reported, reported
 
 
 def test_a_held_leaf_in_python(directory):

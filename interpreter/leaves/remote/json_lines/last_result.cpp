@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/core/tick_budget.h"
 
@@ -22,6 +23,15 @@ LastResult::LastResult(const LeafTime& time, const IsolationOptions& options)
           std::min<Nanoseconds>(time.period / kPartOfPeriod, kLongestWait))),
       age_(options.condition_age.value_or(time.period * kPeriods)) {}
 
+void LastResult::begin_tick() {
+  tick_before_ = std::exchange(tick_, time_.now);
+}
+
+// Since the tick before, less time has passed in the run than on the clock if the run was paused.
+void LastResult::keep(lockstep_status status, Nanoseconds ago) {
+  last_ = {status, std::max(tick_before_, time_.now - ago)};
+}
+
 Nanoseconds LastResult::patience() const {
   return time_.budget == nullptr ? wait_ : time_.budget->left(time_.now, wait_);
 }
@@ -30,14 +40,14 @@ void LastResult::note_wait(Nanoseconds waited) const {
   if (time_.budget != nullptr) time_.budget->use(waited);
 }
 
-lockstep_status LastResult::at(Nanoseconds now) const {
-  return last_ && now - last_->when <= age_ ? last_->status : LOCKSTEP_RUNNING;
+lockstep_status LastResult::now() const {
+  return last_ && time_.now - last_->when <= age_ ? last_->status : LOCKSTEP_RUNNING;
 }
 
-std::string LastResult::warning(Nanoseconds now) {
+std::string LastResult::warning() {
   std::optional<Nanoseconds>& told = told_[last_ ? 1 : 0];
-  if (told && now - *told < kBetweenWarnings) return {};
-  told = now;
+  if (told && time_.now - *told < kBetweenWarnings) return {};
+  told = time_.now;
   const std::string why =
       last_ ? fmt::format("its last result is older than {:g} s, the limit of --condition-age",
                           to_seconds(age_))

@@ -153,6 +153,7 @@ lockstep_status ProgramLeaf::tick_without_waiting() {
 // Each activation asks anew. A question that is still open was asked by an earlier tick, which has
 // waited for it; its answer becomes the last result when it comes.
 lockstep_status ProgramLeaf::tick_condition() {
+  last_.begin_tick();
   auto news = conversation_.take(number_);
   bool is_open = news.is_asked;
   if (!keep_result(news)) return LOCKSTEP_RUNNING;
@@ -164,10 +165,9 @@ lockstep_status ProgramLeaf::tick_condition() {
   if (!is_open) return last_.status();
   end_if_hanging(news.since);
   if (fail_if_gone()) return LOCKSTEP_RUNNING;
-  const Nanoseconds now = monotonic_now();
-  const lockstep_status status = last_.at(now);
+  const lockstep_status status = last_.now();
   if (status != LOCKSTEP_RUNNING) return status;
-  if (const std::string late = last_.warning(now); !late.empty()) {
+  if (const std::string late = last_.warning(); !late.empty()) {
     host_table().log(&caller_, LOCKSTEP_LOG_WARNING, late.c_str());
   }
   return LOCKSTEP_RUNNING;
@@ -176,10 +176,10 @@ lockstep_status ProgramLeaf::tick_condition() {
 // False: the leaf has an error.
 bool ProgramLeaf::keep_result(Conversation::News news) {
   const bool is_answered = news.status != 0;
-  const Nanoseconds when = news.answered;
+  const Nanoseconds ago = monotonic_now() - news.answered;
   const lockstep_status status = take(std::move(news));
   if (has_error()) return false;
-  if (is_answered) last_.keep(status, when);
+  if (is_answered) last_.keep(status, ago);
   return true;
 }
 

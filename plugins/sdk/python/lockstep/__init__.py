@@ -73,10 +73,10 @@ def _options(**options):
 def run(tree, args=None, *, set=None, seed=0, clock="virtual", plugins=(), plugin_path=(), record=None,
         **options):
     """Runs a tree. `options` are those of `lockstep run`: max_ticks=100, on_fault="fail", isolate=True.
-    A fault of a leaf raises Error, as a tree that is wrong does."""
+    A fault of a leaf raises Error, as a tree that is wrong does. `code` of the Run is the exit code."""
     words = _options(arg=args or {}, set=set or {}, seed=seed, clock=clock, plugin=plugins,
                      plugin_path=plugin_path, record=record, **options)
-    done = _call(["run", tree, "--json", "--view", "none", *words], good=(0, 1, 7, 124))
+    done = _call(["run", tree, "--json", "--view", "none", *words], good=(0, 1, 7, 8, 10, 124, *range(129, 160)))
     return Run(json.loads(done.stdout), done.returncode, done.stderr)
 
 
