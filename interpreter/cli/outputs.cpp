@@ -7,6 +7,7 @@
 
 #include "base/system/output_file.h"
 #include "cli/console.h"
+#include "leaves/remote/json_lines/leaves_file.h"
 #include "run/loading/project_file.h"
 
 namespace lockstep::host {
@@ -25,7 +26,10 @@ NamedFile named_file(const std::string& path) {
 std::vector<NamedFile> inputs_of(std::span<const std::string> documents, const PluginSet& plugins) {
   std::vector<NamedFile> inputs;
   for (const std::string& path : documents) inputs.push_back(named_file(path));
-  for (const auto& plugin : plugins.list()) inputs.push_back(named_file(plugin.path));
+  for (const auto& plugin : plugins.list()) {
+    inputs.push_back(named_file(plugin.path));
+    inputs.push_back(named_file(leaves_file_of(plugin.path)));
+  }
   return inputs;
 }
 

@@ -57,6 +57,7 @@ class TestRun {
   std::size_t count() const { return parts_.size(); }
   // The files of trees and leaves that were read for them.
   std::vector<std::string> documents() const;
+  const PluginSet& plugins() const { return *plugins_; }
   // Warnings about the trees.
   Diagnostics& diagnostics() { return diagnostics_; }
   // On the caller's thread, in order; a report is not kept.

@@ -49,6 +49,7 @@ TEST_CASE("no output option overwrites an input of its command") {
   const TemporaryDirectory directory;
   fill(directory);
   directory.file("props", "never Main.failure\n");
+  directory.file("motion.leaves.json", "{}");
   directory.file("lockstep.project.xml",
                  "<project lockstep=\"1\"><main file=\"tree.xml\"/></project>");
   const auto before = contents(directory);
@@ -61,6 +62,7 @@ TEST_CASE("no output option overwrites an input of its command") {
         run + "soft-part.xml",
         run + "hard-part.xml",
         std::string("lockstep run tree.xml --plugin ./motion.so --record motion.so"),
+        std::string("lockstep run tree.xml --plugin ./motion.so --record motion.leaves.json"),
         std::string("cat tree.xml | lockstep run - --record part.xml"),
         std::string("lockstep run - --record tree.xml <tree.xml"),
         run + "/dev/stdin <tree.xml",

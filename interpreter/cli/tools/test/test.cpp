@@ -103,11 +103,12 @@ class TestCommand {
   }
 
   bool would_overwrite_input(const TestRun& tests) const {
-    std::vector<NamedFile> used;
-    for (const std::string& path : tests.documents()) used.push_back(named_file(path));
+    std::vector<NamedFile> used = inputs_of(tests.documents(), tests.plugins());
     for (const auto& file : files_) {
       used.push_back(named_file(file->path));
       for (const Scenario& scenario : file->scenarios) {
+        for (const BindingRow& it : scenario.bindings)
+          if (!it.recording.empty()) used.push_back(named_file(it.recording));
         for (const Expectation& it : scenario.expectations) {
           if (it.kind == Expectation::Kind::SameAs) used.push_back(named_file(it.texts[0]));
         }
