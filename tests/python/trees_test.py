@@ -110,6 +110,7 @@ def tree(nodes, leaves=(Count, Above, Any, Does), **options):
 
 class TreesTest(unittest.TestCase):
     def setUp(self):
+        gc.collect()  # a tree of another test that nobody closed halts its leaves
         calls.clear()
         logging.getLogger("lockstep").setLevel(logging.ERROR)
 
@@ -436,6 +437,39 @@ class TreesTest(unittest.TestCase):
                 self.assertEqual(it.entries["l"], texts)
         with self.assertRaisesRegex(ValueError, "the grid of 'g' has the value 'a,b', which --grid splits at its commas"):
             lockstep.study("tree.xml", runs=1, grid={"g": ["a,b"]})
+
+    def test_the_tick_after_one_with_a_time_is_a_period_later(self):
+        with tree('<Wait seconds="0.05"/>', period=0.01) as it:
+            self.assertEqual(it.tick(5.0), "running")
+            ticks = 1
+            while it.tick() == "running":
+                ticks += 1
+            self.assertEqual(ticks, 5)
+
+    def test_an_exception_that_has_no_text_is_a_fault(self):
+        class Wordless(Exception):
+            def __str__(self):
+                return "error " + 3
+
+        class Broken(Action):
+            def start(self):
+                raise Wordless()
+
+            def tick(self):
+                return True
+
+        class Surrogate(Action):
+            def start(self):
+                raise ValueError("\udcff")
+
+            def tick(self):
+                return True
+
+        for cls, message in ((Broken, "Wordless: its __str__ raised TypeError"), (Surrogate, "ValueError: ")):
+            with lockstep.Tree(text=f'<root lockstep="1"><BehaviorTree ID="Main"><{cls.__name__}/></BehaviorTree></root>',
+                               leaves=[cls]) as it:
+                with self.assertRaisesRegex(lockstep.Error, message):
+                    it.tick()
 
     def test_a_run_that_a_property_ends_is_a_run(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -547,7 +547,11 @@ def _blame(error, folder=None):
     mine = [frame for frame in traceback.extract_tb(error.__traceback__)
             if frame.filename != __file__ and os.path.dirname(frame.filename) != folder]
     where = f" ({os.path.basename(mine[-1].filename)}:{mine[-1].lineno})" if mine else ""
-    return _text(f"{type(error).__name__}: {error}{where}")
+    try:
+        message = str(error)
+    except BaseException as worse:
+        message = f"its __str__ raised {type(worse).__name__}"
+    return _text(f"{type(error).__name__}: {message}{where}")
 
 
 def _refusal(error):

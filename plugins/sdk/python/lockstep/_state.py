@@ -76,7 +76,10 @@ class State:
             self.thrown = self.thrown or error
         elif self.cause is None:
             self.cause = error
-        return leaves_.blame(error).encode()
+        try:
+            return leaves_.blame(error).encode()
+        except BaseException as worse:  # out of here, ctypes would drop it, and what failed would count as done
+            return f"an exception that cannot be described: {type(worse).__name__}".encode()
 
     def is_ours(self):
         "This thread is in a call."

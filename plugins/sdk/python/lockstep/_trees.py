@@ -91,6 +91,7 @@ class Tree:
 
     def _forget(self):
         self._ticks, self._before, self._last, self._start = 0, 0, 0.0, None
+        self._anchor = 0.0, 0  # a time, and the number of the tick that has it: the others are periods apart
 
     root = property(lambda self: self.nodes[0])
     status = property(lambda self: self.root.status, doc="of the root")
@@ -110,16 +111,20 @@ class Tree:
         return self._using(self._tick, seconds)
 
     def _tick(self, handle, seconds):
-        seconds = self._time() if seconds is None else seconds
+        is_given = seconds is not None
+        seconds = seconds if is_given else self._time()
         if not (isinstance(seconds, (int, float)) and self._last <= seconds <= 9e9):  # which NaN is not
             raise ValueError(f"the time of a tick is {seconds!r}, expected seconds, and not before the last tick "
                              f"({self._last:g})")
+        if is_given:
+            self._anchor = seconds, self._ticks
         self._last, self._ticks = seconds, self._ticks + 1
         return native.STATUSES[self._call_or_refuse(handle, self._library.run_tick, seconds)]
 
     def _time(self):
         if self._clock == "virtual":
-            return max(self._last, self._ticks * self._period)
+            time_s, tick = self._anchor
+            return max(self._last, time_s + (self._ticks - tick) * self._period)
         if self._start is None:
             self._start = time.monotonic() - self._last
         return time.monotonic() - self._start
@@ -174,6 +179,8 @@ class Tree:
             return None
         self._ticks = self._before = resumed.ticks
         self._last = resumed.seconds
+        if abs(resumed.seconds - (resumed.ticks - 1) * self._period) > 1e-9:  # a program gave the times
+            self._anchor = resumed.seconds, resumed.ticks - 1
         while self._library.run_resumed_leaf(handle, len(leaves), leaf):
             leaves.append(ResumedLeaf(self.nodes[leaf.node].path, _DOES[leaf.status], leaf.asked, leaf.progress))
         return Resumed(resumed.ticks, resumed.seconds, resumed.gap, native.text_of(resumed.text), leaves)
