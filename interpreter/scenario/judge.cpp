@@ -107,13 +107,18 @@ void Judge::judge_moments(const RunEnd& end) {
          fmt::format("{} does not come: the run ends after {}", moment, counted(end.ticks, "tick")),
          why(end)});
   };
-  for (const SetEntry& it : std::span(scenario.changes).subspan(scenario.changes_of_file)) {
-    if (it.time && *it.time > to_seconds(end.last)) {
-      missed(it.key_place, fmt::format("the time {:g} s", *it.time));
-    } else if (!it.time && it.tick >= end.ticks) {
-      missed(it.key_place, fmt::format("tick {}", it.tick));
+  const auto look = [&](Place place, std::optional<double> time,
+                        std::optional<std::uint64_t> tick) {
+    if (time && *time > to_seconds(end.last)) {
+      missed(place, fmt::format("the time {:g} s", *time));
+    } else if (!time && tick && *tick >= end.ticks) {
+      missed(place, fmt::format("tick {}", *tick));
     }
-  }
+  };
+  for (const SetEntry& it : std::span(scenario.changes).subspan(scenario.changes_of_file))
+    look(it.key_place, it.time, it.tick);
+  for (const AnswerEvent& it : std::span(scenario.answers).subspan(scenario.answers_of_file))
+    look(it.value_place, it.time, it.tick);
   for (const LateTick& it : std::span(scenario.late).subspan(scenario.late_of_file)) {
     if (it.tick >= end.ticks) missed(it.place, fmt::format("tick {}", it.tick));
   }

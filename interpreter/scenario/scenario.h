@@ -110,7 +110,8 @@ struct Scenario {
   std::vector<BindingRow> bindings = {};
   std::vector<AnswerEvent> answers = {};
   std::vector<LateTick> late = {};
-  std::size_t changes_of_file = 0, late_of_file = 0;  // the first of them are for all scenarios
+  // The first of them are for all scenarios.
+  std::size_t changes_of_file = 0, late_of_file = 0, answers_of_file = 0;
   std::vector<Expectation> expectations = {};
 };
 

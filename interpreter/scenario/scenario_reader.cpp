@@ -110,6 +110,7 @@ class Reader {
     scenario.name = name.value;
     scenario.changes_of_file = common_.changes.size();
     scenario.late_of_file = common_.late.size();
+    scenario.answers_of_file = common_.answers.size();
     if (!row.empty()) scenario.name += fmt::format(" [{}]", row);
     check_name(scenario, name);
     read_head(at, scenario);

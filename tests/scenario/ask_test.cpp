@@ -54,6 +54,10 @@ TEST_CASE("scenario: an answer that nobody asks for is a failure, and mistakes a
   check_asking(
       R"(<answer path="sure" value="yes" tick="3"/><expect result="success"/>)",
       "'Main/Sequence/Switch/Sequence/sure' does not ask before tick 3, so 'yes' answers nothing");
+  check_asking(R"(<answer path="where" value="left" tick="140"/><expect result="success"/>)",
+               "tick 140 does not come: the run ends after ");
+  check_asking(R"(<answer path="where" value="left" time="3.5"/><expect result="success"/>)",
+               "the time 3.5 s does not come: the run ends after ");
   check_asking(R"(<answer path="where" value="rihgt"/><expect result="success"/>)",
                "did you mean 'right'?");
   check_asking(R"(<answer path="nobody" value="yes"/><expect result="success"/>)",
