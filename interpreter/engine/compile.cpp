@@ -193,7 +193,7 @@ class Compiler {
     if (from.type->mock != nullptr) {
       if (!from.type->mock->outputs.empty()) node.params = add_ports(from);
     } else if (from.type->leaf != nullptr) {
-      node.params = add_leaf(from);
+      node.params = add_leaf(from, *node.kind);
     } else if (from.type->reads_ports) {
       node.params = add_ports(from);
     } else if (!numbers_.empty() && numbers_.contains(self)) {
@@ -414,13 +414,14 @@ class Compiler {
     }
   }
 
-  std::uint32_t add_leaf(const DefinitionNode& from) {
+  std::uint32_t add_leaf(const DefinitionNode& from, const NodeKind& kind) {
     const auto index = static_cast<std::uint32_t>(tree_.leaves.size());
     if (from.type->can_be_restored) tree_.kept_leaves.push_back(index);
     tree_.leaves.push_back({.node = static_cast<NodeIndex>(tree_.nodes.size()),
                             .type = from.type,
                             .first_port = add_ports(from),
                             .is_slowed = from.is_slowed,
+                            .keeps_pace = kind.state_size > 0,
                             .at_cut = from.at_cut});
     return index;
   }

@@ -66,8 +66,7 @@ void Ticker::go_on_after_cut(std::span<CutLeaf> cut) {
     leaf.mark(LeafSlot::kCut, it.does != AfterCut::Continues);
     leaf.set_started(it.does == AfterCut::Continues);
     if (it.does == AfterCut::Continues) {
-      const LeafNode& its = tree_.leaves[it.place];
-      if (its.obeys() || its.at_cut.commits) state<LeafPace>(node).told = kNoPace;
+      if (tree_.leaves[it.place].keeps_pace) state<LeafPace>(node).told = kNoPace;
       if (activity(node) == Activity::Paused) watch_held(node);
       it.progress = progress(node);
       continue;

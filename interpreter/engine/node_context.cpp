@@ -247,8 +247,10 @@ NodeIndex NodeContext::parent_of(NodeIndex node) const {
 void NodeContext::end_range(NodeIndex first, NodeIndex last) {
   const std::size_t begin = scripts_.halted();
   // After a fault all halts are halt_all's, so that they come in one order.
-  for (NodeIndex node = first; node < last && (!state_.faulted || state_.in_last_halt);) {
+  const auto is_left_to_last_halt = [this] { return state_.faulted && !state_.in_last_halt; };
+  for (NodeIndex node = first; node < last && !is_left_to_last_halt();) {
     if (scripts_.halted() > begin) scripts_.run_halted(begin, node);
+    if (is_left_to_last_halt()) break;  // a script of what was halted before it
     if (moments_ != nullptr && moments_->in_tick()) [[unlikely]]
       keep_results_until(node, node + 1);
     node = end_activation(node);

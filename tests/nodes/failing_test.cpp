@@ -143,6 +143,19 @@ TEST_CASE("the script of a halt runs once, also where the halt meets a fault") {
   CHECK(run.text_of("k") == "11");
 }
 
+TEST_CASE("a fault of the script of a halt leaves no sibling running") {
+  ScriptedRun run(
+      "Sequence[memory=true](Script[code=y:=0] Script[code=z:=0] Parallel(Parallel("
+      "Sequence[on_halt=z:=1/y](a) Sequence[on_halt=z+=7](b)) c))",
+      "a=R b=R c=RF");
+  run.tick(Nanoseconds(0));
+  run.events.clear();
+  run.tick(std::chrono::milliseconds(100));
+  CHECK(run.ticker().faulted());
+  CHECK(told(run) == " tick a, tick b, tick c, halt a, halt b");
+  CHECK(run.text_of("z") == "7");
+}
+
 TEST_CASE("a leaf that has completed is not halted after a fault of a script around it") {
   ScriptedRun run(
       "Sequence[memory=true](Script[code=n:=0] Sequence(a[skip_if=n] Script[code=n:=2] b))",
