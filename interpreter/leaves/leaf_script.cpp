@@ -216,15 +216,15 @@ tl::expected<LeafScripts, LeafScriptError> parse_leaf_scripts(std::string_view t
 }
 
 std::uint32_t line_of_leaf(std::string_view text, std::string_view path) {
+  const std::string at_cut = fmt::format(" {}", path);
+  std::uint32_t cut = 0;  // a line that says what it does after a cut
   for (std::uint32_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    const bool is_of_leaf = line.starts_with(path) && line.substr(path.size()).starts_with(" = ");
-    const bool is_of_cut = line.starts_with("@cut ") && line.ends_with(path) &&
-                           line[line.size() - path.size() - 1] == ' ';
-    if (is_of_leaf || is_of_cut) return number;
+    if (line.starts_with(path) && line.substr(path.size()).starts_with(" = ")) return number;
+    if (cut == 0 && line.starts_with("@cut ") && line.ends_with(at_cut)) cut = number;
   }
-  return 0;
+  return cut;
 }
 
 std::string to_text(const LeafScripts& scripts) {

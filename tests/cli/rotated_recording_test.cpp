@@ -1,4 +1,5 @@
 // Recordings in parts, from outside: each opens alone, and all of them are the recording.
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -184,6 +185,16 @@ TEST_CASE("what a crash has left of a last part is replaced by the next recordin
     CHECK(files_in(parts).size() < all.size());
     CHECK(run_lockstep({"log", "info", parts.path("run.jsonl")}).code == 0);
   }
+}
+
+TEST_CASE("a pipe in the place of a part is an error of the recording, and waits for nobody") {
+  const TemporaryDirectory parts;
+  REQUIRE(mkfifo(parts.path("run.0002.jsonl").c_str(), 0600) == 0);
+  const Outcome outcome =
+      run_lockstep({"run", kTree, "--clock", "virtual", "--record", parts.path("run.jsonl"),
+                    "--record-rotate", "10s", "--on-record-error", "stop"});
+  CHECK(outcome.code == 8);
+  CHECK(contains(outcome.err, "run.0002.jsonl': it is not a file"));
 }
 
 TEST_CASE("on the virtual clock, a run has the same parts each time") {

@@ -125,7 +125,12 @@ bool is_typo_of(std::string_view word, std::string_view known) {
 }
 
 bool is_slip_of(std::string_view word, std::string_view known) {
-  if (without_marks(word) == without_marks(known)) return true;
+  const auto has_digit = [](std::string_view text) {
+    return text.find_first_of("0123456789") != text.npos;  // 'to1_11' and 'to11_1' are two places
+  };
+  const bool is_same_case = std::ranges::equal(word, known, {}, lower, lower);
+  if (is_same_case || (!has_digit(word) && without_marks(word) == without_marks(known)))
+    return true;
   const auto begin = static_cast<std::size_t>(
       std::ranges::mismatch(word, known, {}, lower, lower).in1 - word.begin());
   std::size_t same = 0;  // at the end
@@ -147,7 +152,7 @@ bool is_slip_of(std::string_view word, std::string_view known) {
   // "Locked" and "Blocked", "Charge" and "Charger", "Rest" and "Reset" are words.
   const bool is_inside = place > 0 && place + 1 < part.size();
   const bool is_doubled = place > 0 && lower(part[place]) == lower(part[place - 1]);
-  return is_inside && part.size() >= (is_doubled ? kLeast : kLeast + 1);
+  return is_doubled ? part.size() >= kLeast : is_inside && part.size() > kLeast;
 }
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {

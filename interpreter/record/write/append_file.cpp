@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <ctime>
+#include <filesystem>
 #include <new>
 #include <utility>
 
@@ -164,7 +165,12 @@ void AppendFile::write_out(Failure failure) {
 void AppendFile::begin_part(const PacketHead& head) {
   const std::uint64_t number = part() + 1;
   const std::uint64_t first_tick = head.lost > 0 ? head.lost_from : head.tick;
-  auto next = std::make_unique<GrowingFile>(part_name(path_, number), form_, patience_);
+  const std::string path = part_name(path_, number);
+  std::error_code none;
+  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+    return fail(
+        fmt::format("cannot write '{}': it is not a file", path));  // whose reader may not be
+  auto next = std::make_unique<GrowingFile>(path, form_, patience_);
   if (next->failed()) return fail(next->error());
   is_between_parts_ = true;
   add_text(json_lines::part_end(first_tick));
