@@ -47,7 +47,7 @@ struct LeafNode {
   std::uint32_t children = 0;     // how many
   std::uint32_t followers = 0;    // actions of plugins next to it in pre-order, up to another node
   bool is_slowed = false;         // a node above it has pace="true", and it obeys
-  bool keeps_pace = false;        // its kind keeps a LeafPace: it obeys, and pace counts; or commits
+  bool keeps_pace = false;  // its kind keeps a LeafPace: it obeys, and pace counts; or commits
   LeafAtCut at_cut = {};
 };
 
