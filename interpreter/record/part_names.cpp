@@ -15,6 +15,7 @@
 
 #include "base/compression/decompressed.h"
 #include "base/json/reader.h"
+#include "record/header_line.h"
 #include "record/lines.h"
 
 namespace lockstep::host {
@@ -100,23 +101,16 @@ bool is_part_of_mcap(const std::string& path, std::uint64_t number) {
   return number < kMost && text.starts_with(kMagic) && text.find("lockstep") != text.npos;
 }
 
-// Of what a crash has left, the name decides: nothing, or the begin of a header.
-bool may_be_header(std::string_view text) {
-  static const std::string kBegin = fmt::format("{{\"{}\":", lines::kHeader.fields[0].key);
-  return text.substr(0, kBegin.size()) == std::string_view(kBegin).substr(0, text.size());
-}
-
-// A part behind the first one has its first tick in its header.
+// A part behind the first one has its first tick in its header. Of what a crash has left of one,
+// the name decides.
 bool is_part(const std::string& path, std::uint64_t number) {
   if (number == 1) return true;
   if (path.ends_with(".mcap")) return is_part_of_mcap(path, number);
-  std::string header;
   try {
-    DecompressedFile file(path);
-    std::getline(file.text(), header);
-    if (!may_be_header(header)) return false;
+    auto header = header_line(path);
+    if (!header) return false;
     bool has_first_tick = false;
-    JsonReader().read(header, [&](JsonObject all) {
+    JsonReader().read(*header, [&](JsonObject all) {
       all.each_field([&](std::string_view name, JsonValue) {
         has_first_tick |= name == lines::kHeader["first_tick"];
       });
@@ -129,15 +123,15 @@ bool is_part(const std::string& path, std::uint64_t number) {
   }
 }
 
-// In no order. A folder that cannot be read has none.
-std::vector<Found> all_files(const Names& names) {
+// In no order. A folder that cannot be read has none. Files that are not wanted are not looked at.
+std::vector<Found> all_files(const Names& names, const std::function<bool(Found)>& is_wanted) {
   std::vector<Found> all;
   std::error_code none;
   const std::string folder = names.folder.empty() ? "." : names.folder;
   for (std::filesystem::directory_iterator it(folder, none), end; !none && it != end;
        it.increment(none)) {
     const auto found = found_in(names, it->path().filename().string());
-    if (!found || !it->is_regular_file(none)) continue;  // no pipe, no device
+    if (!found || !is_wanted(*found) || !it->is_regular_file(none)) continue;  // no pipe, no device
     if (found->part == 0 || is_part(it->path().string(), found->part)) all.push_back(*found);
   }
   return all;
@@ -146,21 +140,29 @@ std::vector<Found> all_files(const Names& names) {
 // In their order, each once.
 using Numbers = std::set<std::uint64_t>;
 
-Numbers parts_in(const std::string& recording) {
+Numbers parts_in(const std::string& recording, std::uint64_t behind) {
   Numbers numbers;
-  for (const Found& it : all_files(Names(recording))) {
-    if (it.resumed == 0 && it.part > 0) numbers.insert(it.part);
-  }
+  const auto is_wanted = [&](Found it) { return it.resumed == 0 && it.part > behind; };
+  for (const Found& it : all_files(Names(recording), is_wanted)) numbers.insert(it.part);
   return numbers;
 }
 
-// Adds the first of each gap.
-Numbers with_gaps(Numbers numbers) {
+Numbers processes_in(const Names& names, std::uint64_t first) {
+  Numbers numbers;
+  const auto is_wanted = [&](Found it) { return it.resumed >= first; };
+  for (const Found& it : all_files(names, is_wanted)) numbers.insert(it.resumed);
+  return numbers;
+}
+
+// Adds the first of each gap, also of one behind `behind`, which is there if it is not 0.
+Numbers with_gaps(Numbers numbers, std::uint64_t behind) {
+  if (behind > 0 && !numbers.empty()) numbers.insert(behind);
   Numbers missing;
   for (const std::uint64_t it : numbers) {
     if (it != *numbers.rbegin() && !numbers.contains(it + 1)) missing.insert(it + 1);
   }
   numbers.merge(missing);
+  numbers.erase(behind);
   return numbers;
 }
 
@@ -179,21 +181,23 @@ std::string part_name(const std::string& recording, std::uint64_t number) {
 }
 
 std::vector<std::string> parts_that_exist(const std::string& recording) {
-  return named(parts_in(recording), [&](std::uint64_t it) { return part_name(recording, it); });
+  return named(parts_in(recording, 0), [&](std::uint64_t it) { return part_name(recording, it); });
 }
 
-std::vector<std::string> parts_to_read(const std::string& recording) {
-  return named(with_gaps(parts_in(recording)),
+std::vector<std::string> parts_to_read(const std::string& recording, const std::string& behind) {
+  const auto found = found_in(Names(recording), std::filesystem::path(behind).filename().string());
+  const std::uint64_t last = found ? found->part : 0;
+  return named(with_gaps(parts_in(recording, last), last),
                [&](std::uint64_t it) { return part_name(recording, it); });
 }
 
-std::vector<std::string> resumed_recordings(const std::string& recording) {
+std::vector<std::string> resumed_recordings(const std::string& recording,
+                                            const std::string& behind) {
   const Names names(recording);
-  Numbers numbers;
-  for (const Found& it : all_files(names)) numbers.insert(it.resumed);
-  numbers = with_gaps(std::move(numbers));
-  numbers.erase(0);
-  return named(numbers, [&](std::uint64_t it) { return names.whole(it); });
+  const auto found = found_in(names, std::filesystem::path(behind).filename().string());
+  const std::uint64_t last = found ? found->resumed : 0;
+  return named(with_gaps(processes_in(names, last), last),
+               [&](std::uint64_t it) { return names.whole(it); });
 }
 
 std::vector<std::string> files_that_exist(const std::string& recording) {
@@ -209,8 +213,8 @@ std::vector<std::string> files_that_exist(const std::string& recording) {
 
 std::string name_of_resumed(const std::string& recording) {
   const Names names(recording);
-  std::uint64_t next = 0;
-  for (const Found& it : all_files(names)) next = std::max(next, it.resumed + 1);
+  const Numbers processes = processes_in(names, 0);
+  std::uint64_t next = processes.empty() ? 0 : *processes.rbegin() + 1;
   // In a folder that cannot be listed, each name can be looked at.
   for (std::error_code none; std::filesystem::is_regular_file(names.whole(next), none);) ++next;
   return names.whole(next);

@@ -8,10 +8,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/compression/decompressed.h"
 #include "base/system/output_file.h"
 #include "language/document/file.h"
-#include "record/lines.h"
+#include "record/header_line.h"
 #include "record/read/recording_parts.h"
 #include "record/use/recording_diff.h"
 
@@ -69,11 +68,8 @@ bool is_below(const fs::path& folder, const fs::path& path) {
 }
 
 bool is_recording(const std::string& path) {
-  DecompressedFile file(path);
-  const std::string expected = fmt::format("{{\"{}\":", lines::kHeader.fields[0].key);
-  std::string begin(expected.size(), '\0');
-  file.text().read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin == expected;
+  const auto line = header_line(path);
+  return line && line->starts_with(kHeaderBegin);
 }
 
 }  // namespace

@@ -161,12 +161,8 @@ bool RecordingParts::knows_next() {
   if (at_ + 1 < parts_.size()) return true;
   std::error_code none;
   if (!std::filesystem::exists(process_, none)) {
-    // The first parts of a run that goes on may be deleted.
-    for (std::string& it : parts_to_read(process_)) {
-      const std::string& last = parts_.back().path;
-      const bool is_later = it.size() > last.size() || (it.size() == last.size() && it > last);
-      if (is_later) parts_.push_back({std::move(it)});
-    }
+    for (std::string& it : parts_to_read(process_, parts_.back().path))
+      parts_.push_back({std::move(it)});
   }
   if (at_ + 1 == parts_.size()) look_for_next_process();
   return at_ + 1 < parts_.size();
@@ -174,14 +170,9 @@ bool RecordingParts::knows_next() {
 
 // The run may have been cut while it is read, and continues in another file.
 void RecordingParts::look_for_next_process() {
-  const std::vector<std::string> resumed = resumed_recordings(recording_);
-  auto next = resumed.begin();
-  if (process_ != recording_) {
-    next = std::ranges::find(resumed, process_);
-    if (next != resumed.end()) ++next;
-  }
-  for (; next != resumed.end() && at_ + 1 == parts_.size(); ++next) {
-    if (!own_files(*next).empty()) continue_with(*next);
+  for (const std::string& next : resumed_recordings(recording_, process_)) {
+    if (at_ + 1 < parts_.size()) return;
+    if (!own_files(next).empty()) continue_with(next);
   }
 }
 
@@ -250,10 +241,10 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
 NamedRecording::NamedRecording(const std::string& path, Reading reading) {
   std::error_code none;
   const bool is_whole = std::filesystem::exists(path, none);
-  const bool may_go_on = reading == Reading::GoesOn &&
-                         std::filesystem::is_regular_file(path, none) &&
-                         access(path.c_str(), R_OK) == 0;
-  if (may_go_on || !resumed_recordings(path).empty() ||
+  const bool may_continue = reading == Reading::Follows &&
+                            std::filesystem::is_regular_file(path, none) &&
+                            access(path.c_str(), R_OK) == 0;
+  if (may_continue || !resumed_recordings(path).empty() ||
       (!is_whole && !parts_to_read(path).empty())) {
     parts_ = std::make_unique<RecordingParts>(path);
     all_.rdbuf(parts_.get());

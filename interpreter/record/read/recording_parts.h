@@ -71,7 +71,8 @@ class RecordingParts final : public TextOfFiles {
 // recordings of the runs that continued it after cuts. Not open: errno says why.
 class NamedRecording {
  public:
-  enum class Reading : bool { Once, GoesOn };  // it goes on at the end: the run may be cut later
+  // Follows: at the end, the reader looks for the file of a process that continues the run.
+  enum class Reading : bool { Once, Follows };
   explicit NamedRecording(const std::string& path, Reading reading = Reading::Once);
   bool is_open() const { return parts_ != nullptr || file_->is_open(); }
   std::istream& text() { return parts_ != nullptr ? all_ : file_->text(); }

@@ -10,6 +10,7 @@
 #include "base/compression/decompressed.h"
 #include "base/core/wording.h"
 #include "base/json/reader.h"
+#include "record/header_line.h"
 #include "record/lines.h"
 
 namespace lockstep::host {
@@ -23,18 +24,11 @@ struct Recorded {
 
 // Nothing: the file does not begin with the header of a recording.
 std::optional<Recorded> read_recorded(const std::string& path) {
-  constexpr std::string_view kBegin = "{\"lockstep_recording\":";
-  static_assert(kBegin.substr(2, 18) == lines::kHeader["lockstep_recording"]);
   Recorded recorded;
   try {
-    DecompressedFile file(path);
-    std::string line(kBegin.size(), '\0');
-    file.text().read(line.data(), static_cast<std::streamsize>(line.size()));
-    if (line != kBegin) return std::nullopt;
-    std::string rest;
-    std::getline(file.text(), rest);
-    line += rest;
-    JsonReader().read(line, [&](JsonObject header) {
+    auto line = header_line(path);
+    if (!line) return std::nullopt;
+    JsonReader().read(*line, [&](JsonObject header) {
       header.read(
           {{lines::kHeader["tree"], into(recorded.tree)},
            {lines::kHeader["nodes"], [&](JsonValue it) { recorded.nodes = it.count_items(); }},

@@ -16,6 +16,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
+#include "record/header_line.h"
 #include "record/lines.h"
 #include "record/read/recording_json.h"
 #include "run/stop_signals.h"
@@ -35,7 +36,7 @@ struct Ending {
 };
 
 bool is_header(std::string_view line) {
-  return line.find("\"lockstep_recording\"") != std::string_view::npos;
+  return line.starts_with(kHeaderBegin);
 }
 
 bool is_json(std::string& line) {
@@ -136,7 +137,7 @@ int cat(const LogCatOptions& options) {
       return int{kExitInvalidTree};
     }
   };
-  return with_file(options.file, print, options.follows ? Reading::GoesOn : Reading::Once);
+  return with_file(options.file, print, options.follows ? Reading::Follows : Reading::Once);
 }
 
 }  // namespace
