@@ -82,6 +82,7 @@ void OpenQuestions::end(const Moment& moment, const OpenQuestion& question) {
 }
 
 void OpenQuestions::run_ended(const Moment&, const RunEnd&) {
+  given_.clear();
   const Lock lock(mutex_);
   now_.clear();
 }

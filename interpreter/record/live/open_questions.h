@@ -48,7 +48,7 @@ class OpenQuestions final : public Observer {
   // Whether the question is over. An answer that came is taken in the next tick that reaches the
   // node: one that is held may be halted before.
   bool is_over(const Moment& moment, const OpenQuestion& question) const;
-  void end(const Moment& moment, const OpenQuestion& question);
+  void end(const Moment& moment, const OpenQuestion& question) LOCKSTEP_REQUIRES(mutex_);
 
   const Shape& shape_;
   const Tell tell_;
