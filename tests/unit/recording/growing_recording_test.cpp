@@ -5,27 +5,15 @@
 #include <sstream>
 
 #include "record/read/recording_parts.h"
-#include "record/write/recorder.h"
-#include "run/shape_of.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
 namespace {
 
 using test::TemporaryPath;
-using test::WatchedRun;
 
-// Its lines, without the closing one.
 std::string piece(std::uint64_t first, std::uint64_t ticks) {
-  const TemporaryPath file;
-  WatchedRun run("Parallel(a b)", "a+.01 b+.02");
-  run.start.first_tick = first;
-  run.start.gap = from_seconds(first == 0 ? 0 : 2);
-  Recorder recorder(shape_of(run.run.tree()),
-                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
-  run.watch({&recorder}, ticks);
-  const std::string text = file.text();
-  return text.substr(0, text.find("{\"end\""));
+  return test::recorded_lines("Parallel(a b)", "a+.01 b+.02", first, ticks);
 }
 
 // All that there is until now.
@@ -56,7 +44,7 @@ TEST_CASE("a reader goes on with the file of the process that continues its run"
     std::filesystem::create_directories(folder);
     const std::string first = piece(0, 6) + it.rest, second = piece(it.resumed, it.resumed + 3);
     std::ofstream(folder / "run.jsonl") << first;
-    NamedRecording recording((folder / "run.jsonl").string(), NamedRecording::Reading::GoesOn);
+    NamedRecording recording((folder / "run.jsonl").string(), NamedRecording::Reading::Follows);
     REQUIRE(recording.is_open());
     CHECK(read_on(recording.text()) == first);
     CHECK(read_on(recording.text()).empty());

@@ -19,6 +19,7 @@
 namespace lockstep::host {
 namespace {
 
+using test::recorded_lines;
 using test::TemporaryPath;
 using test::WatchedRun;
 
@@ -126,20 +127,6 @@ void compare(const Case& it, std::span<const MeasureSpec> measures, ValuesOfMeas
     of_measure[column.measure].push_back(std::isnan(expected) ? -1 : expected);
   }
   CHECK(at == of_recording.size());
-}
-
-// The lines of a run that comes to `ticks`, without its closing line. Their leaves begin anew.
-std::string lines_of(const char* tree, const char* leaves, std::uint64_t first,
-                     std::uint64_t ticks) {
-  const TemporaryPath file;
-  WatchedRun run(tree, leaves);
-  run.start.first_tick = first;
-  run.start.gap = from_seconds(first == 0 ? 0 : 2);
-  Recorder recorder(shape_of(run.run.tree()),
-                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
-  run.watch({&recorder}, ticks);
-  const std::string text = file.text();
-  return text.substr(0, text.find("{\"end\""));
 }
 
 // `text` without the lines of these ticks, as a slow disk leaves it.
@@ -292,7 +279,7 @@ TEST_CASE("a recording that is cut does not say whether the run succeeded") {
 }
 
 TEST_CASE("a change over ticks that are missing is not one step of a child") {
-  const std::string text = lines_of(kSteps, "a+.01 b+.1", 0, 9);
+  const std::string text = recorded_lines(kSteps, "a+.01 b+.1", 0, 9);
   CHECK(measured(text, "step-length") == Approx(.1));
   const std::string with_gap = without_ticks(text, 3, 6);
   CHECK(measured(with_gap, "step-length") == Approx(.1));
@@ -300,8 +287,9 @@ TEST_CASE("a change over ticks that are missing is not one step of a child") {
 }
 
 TEST_CASE("a change over a cut of the run is not one step of a child") {
-  const std::string text = lines_of(kSteps, "a+.01 b+.1", 0, 6) +
-                           "{\"continued\":{\"ticks\":6}}\n" + lines_of(kSteps, "a+.01 b+.1", 6, 9);
+  const std::string text = recorded_lines(kSteps, "a+.01 b+.1", 0, 6) +
+                           "{\"continued\":{\"ticks\":6}}\n" +
+                           recorded_lines(kSteps, "a+.01 b+.1", 6, 9);
   CHECK(measured(text, "ticks") == 9);
   CHECK(measured(text, "step-length") == Approx(.1));
   CHECK(longest_step(text) == "0.1");
@@ -311,7 +299,7 @@ TEST_CASE("ticks in which a node waited are not in a row if ticks between them a
   constexpr const char* kPool =
       "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b))"
       " resources[name=p increment=0]";
-  const std::string text = lines_of(kPool, "a+.01 b+.01", 0, 10);
+  const std::string text = recorded_lines(kPool, "a+.01 b+.01", 0, 10);
   CHECK(measured(text, "waits:b") == 10);
   CHECK(measured(without_ticks(text, 3, 5), "waits:b") == 5);
 }

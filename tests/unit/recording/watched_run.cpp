@@ -6,6 +6,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "record/write/recorder.h"
+#include "run/shape_of.h"
+
 namespace lockstep::host::test {
 
 RunEnd WatchedRun::watch(std::initializer_list<Observer*> who, std::uint64_t max_ticks) {
@@ -60,6 +63,19 @@ std::string TemporaryPath::text() const {
   std::ostringstream text;
   text << std::ifstream(path_).rdbuf();
   return text.str();
+}
+
+std::string recorded_lines(std::string_view tree, std::string_view leaves, std::uint64_t first,
+                           std::uint64_t ticks) {
+  const TemporaryPath file;
+  WatchedRun run(tree, leaves);
+  run.start.first_tick = first;
+  run.start.gap = from_seconds(first == 0 ? 0 : 2);
+  Recorder recorder(shape_of(run.run.tree()),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
+  run.watch({&recorder}, ticks);
+  const std::string text = file.text();
+  return text.substr(0, text.find("{\"end\""));
 }
 
 }  // namespace lockstep::host::test

@@ -27,6 +27,11 @@ struct WatchedRun {
   RunStart start{.period = std::chrono::milliseconds(100), .real_time = false};
 };
 
+// The lines of a run that comes to `ticks`, without its closing line. Behind a cut, it begins with
+// tick `first`, and its leaves begin anew.
+std::string recorded_lines(std::string_view tree, std::string_view leaves, std::uint64_t first,
+                           std::uint64_t ticks);
+
 // What was said to a temporary file.
 class TextFile {
  public:
