@@ -149,8 +149,8 @@ bool is_out_of_memory() {
   }
 }
 
-// A destructor that takes memory, as that of a JSON value does, ends here when there is none. What
-// nobody catches in a plugin is its crash.
+// A destructor that takes memory, as that of a JSON value does, ends here when there is none. An
+// exception that a plugin does not catch is a crash of that plugin.
 [[noreturn]] void on_terminate() {
   if (is_in_plugin() || !is_out_of_memory()) std::abort();
   RawTerminal::restore_for_good();

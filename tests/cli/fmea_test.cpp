@@ -68,7 +68,7 @@ TEST_CASE("the table of failures has properties, and pairs on request") {
   CHECK(pairs.size() == singles.size() + 6 * n * n);
 }
 
-TEST_CASE("a property that waits is violated in the table where the tree waits for ever") {
+TEST_CASE("the table of failures has a property that waits, where the tree waits indefinitely") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(
       "t.xml",

@@ -187,7 +187,9 @@ TEST_CASE("what a crash has left of a last part is replaced by the next recordin
   }
 }
 
-TEST_CASE("a pipe in the place of a part is an error of the recording, and waits for nobody") {
+TEST_CASE(
+    "a pipe in the place of a part is an error of the recording, and its reader is not waited "
+    "for") {
   const TemporaryDirectory parts;
   REQUIRE(mkfifo(parts.path("run.0002.jsonl").c_str(), 0600) == 0);
   const Outcome outcome =

@@ -28,7 +28,7 @@ class Accumulator {
  public:
   virtual ~Accumulator() = default;
   virtual void reset() = 0;  // as new, for the next run
-  // Before the tick behind the joint. What compares a tick with the one before it starts anew.
+  // Called between the two ticks. A measure that compares a tick with the one before starts again.
   virtual void join(Joint) {}
   virtual void after_tick(const TickView& view) = 0;
   virtual double value(const EndView& end) const = 0;
