@@ -326,7 +326,7 @@ TEST_CASE("what a script of its own node adds to an output is not blamed on a le
 )");
   const std::string model = directory.file(
       "t.leaves.xml",
-      R"(<leaves lockstep="1"><leaf of="A" out.o="0|1" result="success"/></leaves>)");
+      R"(<leaves lockstep="1"><leaf of="A" ticks="2" out.o="0|1" result="success"/></leaves>)");
   const Outcome outcome = run_lockstep({"run", tree, "--mock", "--leaves", model, "--watch-leaves",
                                         model, "--clock", "virtual", "--view", "none"});
   INFO(outcome.err);
