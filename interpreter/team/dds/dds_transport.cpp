@@ -225,8 +225,10 @@ class DdsTransport final : public TeamTransport {
     const std::string interface =
         options_.interface.empty() ? "" : fmt::format(" (interface {})", options_.interface);
     const std::scoped_lock lock(mutex_);
+    std::string why = first_log_.empty() ? "" : ": " + first_log_;
+    if (last_log_ != first_log_) why += "; " + last_log_;
     return fmt::format("the team cannot be reached: {}{}: {}{}", what, interface,
-                       dds_strretcode(code), last_log_.empty() ? "" : ": " + last_log_);
+                       dds_strretcode(code), why);
   }
 
   static void log_sink(void* self, const dds_log_data_t* data) {
@@ -243,6 +245,7 @@ class DdsTransport final : public TeamTransport {
     {
       constexpr std::size_t kMost = 30;
       const std::scoped_lock lock(mutex_);
+      if (is_log && first_log_.empty()) first_log_ = line;
       if (is_log) last_log_ = line;
       if (told_.size() >= kMost || !told_.insert(kind).second) return;
     }
@@ -251,6 +254,11 @@ class DdsTransport final : public TeamTransport {
 
   // "": it is connected.
   std::string connect() {
+    {
+      const std::scoped_lock lock(mutex_);
+      first_log_.clear();
+      last_log_.clear();
+    }
     addresses_ = addresses();
     domain_ = dds_create_domain(options_.domain, config_of(options_).c_str());
     if (domain_ < 0) return failure("its configuration is refused", domain_);
@@ -389,7 +397,8 @@ class DdsTransport final : public TeamTransport {
   dds_entity_t writer_ = 0;
   mutable std::mutex mutex_;
   std::set<std::string> told_;
-  std::string last_log_;
+  // Since it began to connect. The first is mostly the reason, and the others follow from it.
+  std::string first_log_, last_log_;
   std::condition_variable ended_;
   std::mutex ends_, takes_;
   std::thread watcher_, speaker_;
