@@ -69,6 +69,7 @@ int32_t reason_of(StopReason reason) {
       return LOCKSTEP_MAX_TICKS;
     case StopReason::Overrun:
       return LOCKSTEP_OVERRUN;
+    case StopReason::Stopped:
     case StopReason::Signal:
     case StopReason::Recording:
     case StopReason::Property:
@@ -111,7 +112,7 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
   }
   if (given.virtual_clock && !options.max_ticks) options.max_ticks = kMostVirtualTicks;
   if (given.stop != nullptr) {
-    options.stop_signal = [&given] { return given.stop(given.user) ? 1 : 0; };
+    options.stopped = [&given] { return given.stop(given.user); };
   }
   if (run.kept != nullptr) {
     options.checkpoints = run.kept->writer();

@@ -1,6 +1,5 @@
 #include "embedding/run_watchers.h"
 
-#include <csignal>
 #include <utility>
 
 #include "record/part_names.h"
@@ -92,8 +91,7 @@ void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
       end.reason = StopReason::Fault;
       end.fault = *ticker.fault();
     } else if (!has_ended(status_)) {
-      end.reason = StopReason::Signal;
-      end.signal = SIGINT;  // as when a person ends it
+      end.reason = StopReason::Stopped;
     }
     LiveMoments moments(tree_);
     for (Observer* const it : observers_) it->run_ended(moments.now(ticker), end);

@@ -316,7 +316,8 @@ constexpr Field kEndFields[] = {
      &RecordedEnd::result},
     {"reason", "Text", kAlways,
      "`completed`, `fault`, `timeout`, `max_ticks`, `signal`, `overrun` (with `--overrun fail`), "
-     "`recording` (with `--on-record-error stop`) or `property` (with `--on-violation end`)",
+     "`recording` (with `--on-record-error stop`), `property` (with `--on-violation end`) or "
+     "`stopped` (by the program that embeds lockstep)",
      &RecordedEnd::reason},
     {"fault", "Text", kMaybe,
      "only after a fault: the path of the leaf and what it did, in a tick or when it was created",

@@ -86,7 +86,7 @@ class Loop {
 
   bool may_tick() {
     rethrow_thread_failure();
-    if (stop_requested()) return stop(StopReason::Signal);
+    if (stop_requested()) return stop(is_stopped_ ? StopReason::Stopped : StopReason::Signal);
     if (options_.writing_failed && options_.writing_failed()) {
       return stop(StopReason::Recording);
     }
@@ -157,7 +157,8 @@ class Loop {
   // It is not called again after its first nonzero answer: one that takes an event gives it once.
   bool stop_requested() {
     if (end_.signal == 0 && options_.stop_signal) end_.signal = options_.stop_signal();
-    return end_.signal != 0;
+    is_stopped_ = is_stopped_ || (options_.stopped && options_.stopped());
+    return end_.signal != 0 || is_stopped_;
   }
 
   bool stop(StopReason reason) {
@@ -279,6 +280,7 @@ class Loop {
   Nanoseconds start_;        // as if there had been no pauses
   WakeUp* const wake_up_;    // null: nobody ends a wait
   std::uint32_t wakes_ = 0;  // before the last tick
+  bool is_stopped_ = false;  // by the program
   bool is_woken_ = false;    // the next tick comes before its deadline
   Pace pace_;
   std::uint64_t deadline_;  // number of the deadline that the next tick waits for

@@ -36,6 +36,7 @@ struct LoopOptions {
   std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time; on a
                                            // real clock, time in which the run is paused counts too
   std::function<int()> stop_signal = {};   // called before each tick and in waits: nonzero = stop
+  std::function<bool()> stopped = {};      // likewise: true = the program stops its run
   OverrunPolicy overrun = OverrunPolicy::Skip;
   Nanoseconds spin{0};  // on a real clock, the end of a wait that looks at the clock without sleep
   std::function<bool()> writing_failed = {};     // called before each tick: true = stop

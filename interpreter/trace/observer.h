@@ -40,7 +40,8 @@ enum class StopReason : std::uint8_t {
   Signal,
   Overrun,
   Recording,
-  Property
+  Property,
+  Stopped  // by the program that ticks the tree
 };
 
 // The longest tick, from its beginning until the root had its status; real time only.

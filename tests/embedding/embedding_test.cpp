@@ -1317,6 +1317,29 @@ TEST_CASE("a run of a program is recorded and has a monitor, from its first tick
   CHECK_THROWS(runtime::Run(project).record("/no/such/folder/run.jsonl"));
 }
 
+TEST_CASE("the recording of a run that its program ends has the reason stopped, and no signal") {
+  const runtime::Project project = project_of("<Step step=\"0.001\"/>");
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("lockstep_stopped_" + std::to_string(getpid()) + ".jsonl");
+  {
+    runtime::Run run(project);
+    run.record(file);
+    SECTION("between two ticks") { CHECK(run.tick(0) == Status::Running); }
+    SECTION("in a loop") {
+      int ticks = 0;
+      runtime::LoopSettings settings;
+      settings.virtual_clock = true;
+      settings.stop = [&] { return ++ticks == 3; };
+      CHECK(run.loop(settings).reason == runtime::LoopResult::Reason::Stopped);
+    }
+  }
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  CHECK(text.find(R"("reason":"stopped")") != std::string::npos);
+  CHECK(text.find("signal") == std::string::npos);
+  std::filesystem::remove(file);
+}
+
 TEST_CASE("a call that takes longer than the budget, or does not return, is reported") {
   runtime::Project project;
   project.add_leaf<Slow>("Slow", "Waits");

@@ -65,6 +65,8 @@ int exit_code_of(const RunEnd& end) {
       return kExitRecording;
     case StopReason::Property:
       return kExitProperty;
+    case StopReason::Stopped:  // of a program only
+      break;
   }
   return kExitLeafFault;
 }

@@ -38,6 +38,8 @@ std::string why(const Summary& summary) {
       return "the recording or the checkpoint cannot be written";
     case StopReason::Property:
       return "a property is violated";
+    case StopReason::Stopped:
+      return "its program stopped it";
   }
   return {};
 }
@@ -197,7 +199,8 @@ Style style_of(RunResult result) {
 
 std::string_view to_string(StopReason reason) {
   constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",   "max_ticks",
-                                         "signal",    "overrun", "recording", "property"};
+                                         "signal",    "overrun", "recording", "property",
+                                         "stopped"};
   return kNames[static_cast<unsigned>(reason)];
 }
 

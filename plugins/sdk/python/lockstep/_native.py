@@ -12,7 +12,7 @@ from ._program import library
 
 RUNNING, SUCCESS, FAILURE, SKIPPED = 1, 2, 3, 4
 STATUSES = ("idle", "running", "success", "failure", "skipped")
-REASONS = ("completed", "fault", "timeout", "max_ticks", "signal", "overrun")
+REASONS = ("completed", "fault", "timeout", "max_ticks", "stopped", "overrun")
 SEVERITIES = ("error", "warning", "note")
 
 
