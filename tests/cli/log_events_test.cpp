@@ -138,6 +138,26 @@ TEST_CASE("log events: each hold has its release, also where the node above is h
   CHECK(events_from("3") == head + rest);  // the line of tick 2 has the whole state
 }
 
+TEST_CASE("log events: each question of an Ask, also one that is asked again with the same text") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root lockstep=\"1\"><BehaviorTree ID=\"T\"><Repeat name=\"r\" times=\"2\">"
+      "<Ask name=\"a\" text=\"Is it, {on}?\" timeout=\"0.2\" default=\"yes\"/></Repeat>"
+      "</BehaviorTree></root>");
+  const std::string file = directory.path("run.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--record", file, "--set",
+                        "on=now"})
+              .code == 0);
+  const Outcome outcome =
+      run_lockstep({"log", "events", file, "--event", "ask", "--format", "csv"});
+  CHECK(outcome.err == "");
+  CHECK(outcome.out ==
+        "tick,time_s,event,what,value\n"
+        "0,0,ask,T/r/a,\"Is it, now?\"\n"
+        "3,0.3,ask,T/r/a,\"Is it, now?\"\n");
+}
+
 TEST_CASE(
     "log events: --event takes each event that docs/recording.md lists, and there are no others") {
   const TemporaryDirectory directory;

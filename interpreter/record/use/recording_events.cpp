@@ -40,6 +40,9 @@ class Events {
         is_told_held_(header.nodes.size()) {
     const bool paces = std::ranges::any_of(header.nodes, &ShapeNode::paces);
     factors_.assign(paces ? header.nodes.size() : 0, 1);
+    for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+      if (header.nodes[node].question) questions_.push_back({.node = node});
+    }
     if (!is_merged(header)) return;
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
       const auto parent = header.nodes[node].parent;
@@ -73,6 +76,7 @@ class Events {
       add(EventKind::Answer, header_.nodes[it.node].path,
           fmt::format("{} (by {})", it.answer, it.who));
     }
+    add_questions(tick, is_first);
     for (const RecordedEntry& it : tick.entries) {
       if (!is_first) add(EventKind::Entry, header_.entries[it.entry].key, shown_value(it));
     }
@@ -93,6 +97,18 @@ class Events {
   }
 
  private:
+  // A node asks when its activation begins, and anew with another text. A reason is told only where
+  // it differs from the line before: a question that is asked again may have none.
+  void add_questions(const RecordedTick& tick, bool is_first) {
+    for (Question& it : questions_) {
+      const auto reason = std::ranges::find(tick.reasons, it.node, &RecordedReason::node);
+      if (reason != tick.reasons.end()) it.is_told = false, it.text = reason->text;
+      if (now_[it.node].status() != Status::Running) continue;
+      if (!std::exchange(it.is_told, true) && !is_first)
+        add(EventKind::Ask, header_.nodes[it.node].path, it.text);
+    }
+  }
+
   // A tick of one robot is not between two ticks of another one.
   void keep_others(std::vector<NodeState>& now) const {
     for (std::size_t node = robot_of_.size(); node-- > 0;) {  // a robot after its nodes
@@ -111,9 +127,11 @@ class Events {
     const bool is_over = is_told_held_[node] && !state.held();
     if (is_over) is_told_held_[node] = false;
     if (is_over && state.status() != Status::Idle) add(EventKind::Release, it.path, "");
+    const auto change = change_of(before, state);
+    if (it.question && change) std::ranges::find(questions_, node, &Question::node)->is_told = false;
     if (times > 0 && state.ticked() && has_ended(state.status())) {
       add_result(it, state.status(), times);
-    } else if (const auto change = change_of(before, state)) {
+    } else if (change) {
       add(*change, it.path, "");
     }
     if (!is_told_held_[node] && is_held_itself(node, now)) {
@@ -157,6 +175,12 @@ class Events {
     is_wanted_ = take_(at_);
   }
 
+  struct Question {  // of a node that asks
+    NodeIndex node = 0;
+    std::string text = {};
+    bool is_told = false;
+  };
+
   const RecordingHeader& header_;
   const TickRange range_;
   const EventSink& take_;
@@ -164,6 +188,7 @@ class Events {
   std::vector<NodeIndex> robot_of_;  // of each node, in the recording of a team
   std::vector<bool> is_told_held_;   // it has a hold, and no release yet
   std::vector<double> factors_;
+  std::vector<Question> questions_;
   RecordingEvent at_;
   std::uint64_t next_ = 0;  // tick
   bool is_wanted_ = true;

@@ -24,6 +24,7 @@ enum class EventKind : std::uint8_t {
   Release,
   Pace,
   Fault,
+  Ask,
   Answer,
   Entry,
   Log,
@@ -31,9 +32,9 @@ enum class EventKind : std::uint8_t {
   End
 };
 // Of each, in this order: as --event and all formats spell it.
-inline constexpr std::array<std::string_view, 14> kEventNames = {
-    "start", "success", "failure", "skipped", "halt", "hold", "release",
-    "pace",  "fault",   "answer",  "entry",   "log",  "lost", "end"};
+inline constexpr std::array<std::string_view, 15> kEventNames = {
+    "start", "success", "failure", "skipped", "halt",  "hold", "release", "pace",
+    "fault", "ask",     "answer",  "entry",   "log",   "lost", "end"};
 static_assert(kEventNames.size() == static_cast<std::size_t>(EventKind::End) + 1);
 
 constexpr std::string_view to_string(EventKind kind) {
