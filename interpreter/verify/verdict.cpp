@@ -21,6 +21,12 @@
 namespace lockstep::host {
 namespace {
 
+// The names of findings, or how they begin: "starvation/T/Parallel/Advance".
+constexpr std::string_view kTrap = "trap", kTrapAfterCut = "trap-after-cut", kCycle = "cycle",
+                           kStarvation = "starvation/", kNeverTicked = "never-ticked/",
+                           kFault = "fault/", kOrder = "order/",
+                           kBarrierPassed = "barrier-passed/", kDoneTwice = "done-twice/";
+
 constexpr std::size_t kMostNames = 6;
 
 std::string some_of(std::vector<std::string> names) {
@@ -139,7 +145,7 @@ class VerdictMaker {
     StateId trapped = 0;
     while (trapped < graph_.states() && (can_end_[trapped] || cuts_before(trapped) > 0)) ++trapped;
     if (trapped < graph_.states()) {
-      Finding trap = trap_at(found_.path_to(trapped), "trap");
+      Finding trap = trap_at(found_.path_to(trapped), std::string(kTrap));
       say("can always end", "NO: " + trap.message);
       verdict_.findings.push_back(std::move(trap));
     } else if (found_.is_complete()) {
@@ -157,7 +163,7 @@ class VerdictMaker {
     const auto path = answer(name, [&] { return path_to_trap_after_cut(); });
     if (!path) return;
     if (!path->empty()) {
-      Finding trap = trap_at(*path, "trap-after-cut");
+      Finding trap = trap_at(*path, std::string(kTrapAfterCut));
       say(name, "NO: " + trap.message);
       verdict_.findings.push_back(std::move(trap));
     } else if (found_.is_complete()) {
@@ -333,7 +339,7 @@ class VerdictMaker {
       has_trap ? say("always ends", "NO: see 'can always end'") : say_good("always ends", "yes");
       return;
     }
-    Finding finding{.name = "cycle", .message = {}};
+    Finding finding{.name = std::string(kCycle), .message = {}};
     add_lasso(cycle.front().from, cycle, finding);
     finding.message = "it may never end: a cycle of ticks may repeat indefinitely";
     finding.more = standstill_of(finding);
@@ -422,7 +428,7 @@ class VerdictMaker {
       const auto hold = answer("held: " + tree_.path(child), [&] { return hold_of(i); });
       if (!hold || !hold->for_ever) continue;
       const auto& endless = hold->for_ever;
-      Finding finding{.name = "starvation/" + tree_.path(child), .message = {}};
+      Finding finding{.name = std::string(kStarvation) + tree_.path(child), .message = {}};
       finding.node = child;
       const StateId start = endless->cycle.front().from;
       add_lasso(found_.path_to(start), endless->cycle, finding,
@@ -514,7 +520,7 @@ class VerdictMaker {
         continue;
       }
       names.push_back(at(node));
-      verdict_.findings.push_back({.name = "never-ticked/" + tree_.path(node),
+      verdict_.findings.push_back({.name = std::string(kNeverTicked) + tree_.path(node),
                                    .message = at(node) + " is never ticked",
                                    .node = node});
       node = tree_.nodes[node].end;
@@ -525,7 +531,7 @@ class VerdictMaker {
   void look_at_violations() {
     for (const auto& [node, fault] : found_.faults) {
       verdict_.findings.push_back(
-          {.name = "fault/" + tree_.path(node),
+          {.name = std::string(kFault) + tree_.path(node),
            .message = fmt::format("a fault is reachable after {}: {} {}",
                                   counted(fault.second.ticks, "tick"), at(node), fault.first),
            .node = node,
@@ -533,14 +539,14 @@ class VerdictMaker {
     }
     if (found_.broken) {
       verdict_.findings.push_back(
-          {.name = "order/" + found_.broken->first.substr(0, found_.broken->first.find(':')),
+          {.name = std::string(kOrder) + found_.broken->first.substr(0, found_.broken->first.find(':')),
            .message = "an order of calls that the contract forbids, which is a bug in lockstep: " +
                       found_.broken->first,
            .run = run_to(found_.broken->second)});
     }
     for (const auto& [node, passed] : found_.passed) {
       verdict_.findings.push_back(
-          {.name = "barrier-passed/" + tree_.path(node),
+          {.name = std::string(kBarrierPassed) + tree_.path(node),
            .message =
                fmt::format("a barrier of {} is passed before all have reached it, which is a "
                            "bug in lockstep: {}",
@@ -550,7 +556,7 @@ class VerdictMaker {
     }
     for (const auto& [node, where] : found_.repeated) {
       verdict_.findings.push_back(
-          {.name = "done-twice/" + tree_.path(node),
+          {.name = std::string(kDoneTwice) + tree_.path(node),
            .message = fmt::format("{} starts again after a cut, though it may have succeeded in "
                                   "the tick that was lost. With on_resume=\"failure\", the tree "
                                   "decides; or its type keeps state, and is asked",
@@ -699,6 +705,30 @@ void Verdict::keep_only(std::span<const std::string> patterns) {
 
 std::string name_of_finding(const Property& property) {
   return std::string(kPropertyFinding) + property.name();
+}
+
+std::vector<std::string> possible_findings(const Tree& tree, std::span<const Property> properties) {
+  std::vector<std::string> names{std::string(kTrap), std::string(kTrapAfterCut),
+                                 std::string(kCycle), std::string(kOrder),
+                                 std::string(kPropertyFinding)};
+  for (const std::string_view kind :
+       {kStarvation, kNeverTicked, kFault, kBarrierPassed, kDoneTwice}) {
+    names.emplace_back(kind);
+    for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+      names.push_back(std::string(kind) + tree.path(node));
+    }
+  }
+  for (const Property& it : properties) names.push_back(name_of_finding(it));
+  return names;
+}
+
+bool may_mean_finding(std::string_view pattern, std::span<const std::string> possible) {
+  const auto star = pattern.find('*');
+  const std::string_view start = pattern.substr(0, star);
+  return std::ranges::any_of(possible, [&](std::string_view it) {
+    if (star == pattern.npos && !pattern.starts_with(kOrder)) return it == pattern;
+    return it.starts_with(start) || (it.ends_with('/') && start.starts_with(it));
+  });
 }
 
 Verdict make_verdict(const Tree& tree, const LeafModels& models,

@@ -56,6 +56,12 @@ struct VerdictOptions {
 inline constexpr std::string_view kPropertyFinding = "property/";
 std::string name_of_finding(const Property& property);
 
+// The names of all findings that the tree could have. Those of a kind with a part, such as
+// "property/close", also without it: "property/".
+std::vector<std::string> possible_findings(const Tree& tree, std::span<const Property> properties);
+// Whether a pattern such as "never-ticked/*" is of a kind of `possible`; without '*', one of them.
+bool may_mean_finding(std::string_view pattern, std::span<const std::string> possible);
+
 Verdict make_verdict(const Tree& tree, const LeafModels& models,
                      std::span<const Property> properties, const SearchResult& found,
                      const VerdictOptions& options);

@@ -512,12 +512,22 @@ TEST_CASE("which findings count is what --only says") {
   CHECK(contains(none.out, "no finding trap; --only leaves out "));
   CHECK(!contains(none.out, "verified"));
   const Outcome bounded = run_lockstep({"verify", with_findings(directory), "--out",
-                                        directory.path("out"), "--only", "none", "--depth", "1"});
+                                        directory.path("out"), "--only", "trap", "--depth", "1"});
   CHECK(bounded.code == 124);
   CHECK(contains(bounded.out, "bounded: nothing found in the first "));
   const Outcome mistyped = only("property/clsoe");
   CHECK(mistyped.code == 2);
   CHECK(contains(mistyped.err, "--only: there is no property 'property/clsoe'"));
+  for (const char* const name : {"traps", "never-ticked", "never-ticked/T/Sequence/Falback",
+                                 "never_ticked/*", "*trap"}) {
+    INFO(name);
+    const Outcome unknown = only(name);
+    CHECK(unknown.code == (std::string_view(name) == "*trap" ? 0 : 2));
+    CHECK(contains(unknown.err, "--only: no finding of this tree has the name") ==
+          (unknown.code == 2));
+  }
+  CHECK(only("property/*").code == 0);
+  CHECK(only("starvation/T/Sequence").code == 0);
   const Outcome dead = only("never-ticked/*");
   CHECK(dead.code == 1);
   CHECK(contains(dead.out, "finding never-ticked/T/Sequence/Fallback/dead"));

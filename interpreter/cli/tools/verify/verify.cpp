@@ -189,7 +189,7 @@ class VerifyCommand {
     });
     if (!properties) return kExitUsage;
     properties_ = std::move(*properties);
-    if (!knows_only()) return kExitUsage;
+    if (!knows_only(runnable.tree)) return kExitUsage;
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const Observed observed = observed_by(runnable.tree, properties_, problems);
     if (!options_.save_model.empty() && !save_model(runnable.tree, observed.entries))
@@ -358,16 +358,18 @@ class VerifyCommand {
     return first_failure(failed, is_whole ? kExitSuccess : kExitLimit);
   }
 
-  // The names of all properties are known, and a mistyped one would leave out its finding.
-  bool knows_only() const {
-    std::vector<std::string> names;
-    for (const Property& it : properties_) names.push_back(name_of_finding(it));
+  // A mistyped name would leave out its finding.
+  bool knows_only(const Tree& tree) const {
+    if (options_.only.empty()) return true;
+    const std::vector<std::string> names = possible_findings(tree, properties_);
     const std::vector<std::string_view> known(names.begin(), names.end());
     for (const std::string& it : options_.only) {
-      const bool is_of_property = it.starts_with(kPropertyFinding) && it.find('*') == it.npos;
-      if (!is_of_property || std::ranges::find(known, it) != known.end()) continue;
-      print_error(fmt::format("--only: there is no property '{}'", printable(it)),
-                  suggest(it, known, "findings about properties"));
+      if (may_mean_finding(it, names)) continue;
+      const bool is_of_property = it.starts_with(kPropertyFinding);
+      print_error(is_of_property ? fmt::format("--only: there is no property '{}'", printable(it))
+                                 : fmt::format("--only: no finding of this tree has the name '{}'",
+                                               printable(it)),
+                  suggest(it, known, is_of_property ? "findings about properties" : "findings"));
       return false;
     }
     return true;
