@@ -322,6 +322,24 @@ TEST_CASE("diff shows what has changed in a team at what stands for the other ro
   CHECK(run_lockstep({"diff", old, old}).code == 0);
 }
 
+TEST_CASE("diff: what the model of a SubTree adds is a part of the tree") {
+  const TemporaryDirectory directory;
+  const auto tree = [&](const std::string& name, const std::string& attributes,
+                        const std::string& port) {
+    return directory.file(
+        name, "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Sequence>"
+              "<SubTree ID=\"S\"" + attributes + "/><Sleep msec=\"1\"/></Sequence></BehaviorTree>"
+              "<BehaviorTree ID=\"S\"><ScriptCondition code=\"go == 'yes'\"/></BehaviorTree>"
+              "<TreeNodesModel><SubTree ID=\"S\"><input_port name=\"go\"" + port +
+              "/></SubTree></TreeNodesModel></root>");
+  };
+  const std::string yes = tree("yes.xml", "", " default=\"yes\"");
+  const Outcome outcome = run_lockstep({"diff", yes, tree("no.xml", "", " default=\"no\"")});
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.out, "M/Sequence/S  go yes → no"));
+  CHECK(run_lockstep({"diff", yes, tree("written.xml", " go=\"yes\"", "")}).code == 0);
+}
+
 TEST_CASE("diff git:REV writes nothing outside of its folder, and follows links within it") {
   const TemporaryDirectory directory;
   const Outcome outcome = shell(R"(

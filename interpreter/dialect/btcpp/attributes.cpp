@@ -251,14 +251,16 @@ const Attribute* misspelled(const NodeElement& element, const Model& model, std:
 }
 
 // Adds the ports that the model declares and the element does not give.
-void add_defaults(const NodeElement& element, const Model& model, const Reporter& report,
+std::vector<Attribute> add_defaults(const NodeElement& element, const Model& model, const Reporter& report,
                   std::string_view id, CheckedTrees& trees) {
+  std::vector<Attribute> defaults;
   for (const ModelPort& port : model.ports) {
     if (find_attribute(element.attributes, port.name) != nullptr) continue;
     if (port.default_value) {
       auto& it =
           trees.remappings.emplace_back(remapping(port.name, *port.default_value, element.place));
       it.is_written = false;
+      defaults.push_back({port.name, *port.default_value, element.place});
     } else if (report.counted_only(Severity::Error)) {
       continue;
     } else if (const Attribute* wrong = misspelled(element, model, port.name)) {
@@ -274,11 +276,12 @@ void add_defaults(const NodeElement& element, const Model& model, const Reporter
                 "takes it from outside");
     }
   }
+  return defaults;
 }
 
 }  // namespace
 
-void read_subtree_attributes(const NodeElement& element, const Models& models,
+std::vector<Attribute> read_subtree_attributes(const NodeElement& element, const Models& models,
                              const Reporter& report, CheckedNode& node, CheckedSubTree& subtree,
                              CheckedTrees& trees) {
   subtree.first = static_cast<std::uint32_t>(trees.remappings.size());
@@ -305,8 +308,9 @@ void read_subtree_attributes(const NodeElement& element, const Models& models,
     }
   }
   const auto model = models.subtrees.find(subtree.id);
+  std::vector<Attribute> defaults;
   if (model != models.subtrees.end() && !subtree.autoremap) {
-    add_defaults(element, model->second, report, subtree.id, trees);
+    defaults = add_defaults(element, model->second, report, subtree.id, trees);
   }
   subtree.remappings = static_cast<std::uint32_t>(trees.remappings.size()) - subtree.first;
   if (subtree.id.empty()) {
@@ -314,6 +318,7 @@ void read_subtree_attributes(const NodeElement& element, const Models& models,
               "write <SubTree ID=\"…\"/> with the ID of a BehaviorTree");
   }
   check_hooks(element, report, node, trees);
+  return defaults;
 }
 
 }  // namespace lockstep::host::btcpp

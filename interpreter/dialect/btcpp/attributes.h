@@ -1,6 +1,8 @@
 // The attributes of a node in a document for BehaviorTree.CPP: ports, scripts and marks.
 #pragma once
 
+#include <vector>
+
 #include "language/document/reporter.h"
 #include "tree/check/attributes.h"
 #include "tree/check/models.h"
@@ -13,8 +15,9 @@ namespace lockstep::host::btcpp {
 void read_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                      CheckedTrees& trees);
 
-// The same for a SubTree, whose attributes are remappings. A model of its tree has defaults.
-void read_subtree_attributes(const NodeElement& element, const Models& models,
+// The same for a SubTree, whose attributes are remappings. Returns the defaults that the model of
+// its tree adds.
+std::vector<Attribute> read_subtree_attributes(const NodeElement& element, const Models& models,
                              const Reporter& report, CheckedNode& node, CheckedSubTree& subtree,
                              CheckedTrees& trees);
 

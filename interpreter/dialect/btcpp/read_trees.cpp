@@ -277,16 +277,20 @@ class TreeReader {
     const Attribute* name = find_attribute(element.attributes, "name");
     const bool is_named = name != nullptr && !name->value.empty();
     node.name = is_named ? in_path(name->value) : node.type->id;
+    std::vector<Attribute> defaults;
     if (is_subtree(node)) {
       CheckedSubTree subtree{.node = self};
-      read_subtree_attributes(element, models_, report_, node, subtree, trees_);
+      defaults = read_subtree_attributes(element, models_, report_, node, subtree, trees_);
       if (!is_named) node.name = in_path(Project::written(subtree.id, prefix()));
       node.first = count(trees_.subtrees);
       trees_.subtrees.push_back(subtree);
     } else {
       read_attributes(element, report_, node, trees_);
     }
-    keep_written(element, node, trees_);
+    if (defaults.empty()) return keep_written(element, node, trees_);
+    // The tree means these, too: drawings and differences have them.
+    defaults.insert(defaults.begin(), element.attributes.begin(), element.attributes.end());
+    keep_written({element.place, defaults, element.is_explicit}, node, trees_);
   }
 
   // '/' separates the names in a path.
