@@ -525,11 +525,36 @@ TEST_CASE("convert warns of a child that may be skipped, where the languages dif
   }
   CHECK(branch("IfThenElse", decided).empty());
   CHECK(contains(branch("WhileDoElse", decided), "runs once for each branch"));
-  const auto delay = [&](const std::string& child) {
-    return told("<Delay delay_msec=\"10\">" + child + "</Delay>");
+  const auto timed = [&](const std::string& tag, const std::string& child) {
+    return told("<" + tag + "=\"10\">" + child + "</" + tag.substr(0, tag.find(' ')) + ">");
   };
-  CHECK(delay(good).empty());
-  CHECK(contains(delay(skipped), "the time is not waited for again"));
+  for (const std::string tag : {"Delay delay_msec", "Timeout msec"}) {
+    INFO(tag);
+    CHECK(timed(tag, good).empty());
+    CHECK(contains(timed(tag, skipped), "the time continues after the child was skipped"));
+    CHECK(contains(timed(tag, skipped), "warning: "));
+    const std::string of_leaf = timed(tag, "<IsOpen/>");
+    CHECK(contains(of_leaf, "the time continues after the child was skipped"));
+    CHECK(contains(of_leaf, "note: "));
+  }
+}
+
+TEST_CASE("a Timeout whose child is skipped differs as convert says") {
+  const TemporaryDirectory directory;
+  const auto ticks_of = [&](const std::string& tree) {
+    const Outcome outcome =
+        run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--json"});
+    return parse_json(outcome.out)["ticks"].get<int>();
+  };
+  const std::string theirs = directory.file(
+      "theirs.xml",
+      around("BTCPP_format=\"4\"",
+             "<Sequence><Script code=\"n := 0\"/><KeepRunningUntilFailure><Timeout msec=\"50\">"
+             "<Sleep msec=\"1000\" _while=\"n += 1; n != 3 &amp;&amp; n != 7\"/></Timeout>"
+             "</KeepRunningUntilFailure></Sequence>"));
+  const Outcome converted = run_lockstep({"convert", theirs});
+  CHECK(contains(converted.err, "warning: 'Timeout' is not quite the same"));
+  CHECK(ticks_of(theirs) < ticks_of(directory.file("ours.xml", converted.out)));
 }
 
 TEST_CASE("convert tells once that a leaf of a plugin may skip a condition") {

@@ -337,9 +337,9 @@ class Converter {
     }
     for (const btcpp::Difference& it : pair_->differences) {
       if (!circumstances_.apply(it.when, element)) continue;
-      // Few leaves do, so one line is enough.
+      // Few leaves do, so one line for each difference is enough.
       const bool is_rare = it.when == btcpp::When::LeafSkipsFirst;
-      if (is_rare && std::exchange(told_of_skips_, true)) continue;
+      if (is_rare && !told_of_skips_.insert(it.what).second) continue;
       const Severity severity = is_rare ? Severity::Note : Severity::Warning;
       if (report_.counted_only(severity)) continue;
       report_.at("not-the-same"_code, place_of(element),
@@ -717,9 +717,9 @@ class Converter {
   bool is_check_ = false;           // likewise
   std::string new_id_;              // of the innermost element, if it is explicit
   bool has_doctype_ = false;
-  bool told_of_skips_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments
+  std::set<std::string_view> told_of_skips_;
 };
 
 }  // namespace

@@ -62,10 +62,11 @@ constexpr Difference kAsks[] = {
      When::FirstIsDecided},
     kSkipped,
     kLeafSkips};
-constexpr Difference kWaits[] = {
-    {"for BehaviorTree.CPP, the time is not waited for again after the child was skipped; in "
-     "lockstep's language it is",
-     When::FirstIsSkipped}};
+constexpr std::string_view kAfterSkip =
+    "for BehaviorTree.CPP, the time continues after the child was skipped; in lockstep's language "
+    "it begins again";
+constexpr Difference kTime[] = {{kAfterSkip, When::FirstIsSkipped},
+                                {kAfterSkip, When::LeafSkipsFirst}};
 
 constexpr std::string_view kOneEach =
     "one attempt in each tick; without a limit: a <Repeat> between two <Inverter>";
@@ -122,12 +123,16 @@ constexpr NodePair kPairs[] = {
      .in_theirs = kRepeatsResult,
      .words = kThenSkip,
      .remark = kFirstResult},
-    {.theirs = "Timeout", .ours = "Timeout", .in_ours = kWallClock, .attributes = kMsec},
+    {.theirs = "Timeout",
+     .ours = "Timeout",
+     .in_ours = kWallClock,
+     .attributes = kMsec,
+     .differences = kTime},
     {.theirs = "Delay",
      .ours = "Delay",
      .in_ours = kWallClock,
      .attributes = kDelayMsec,
-     .differences = kWaits},
+     .differences = kTime},
     {.theirs = "Sleep", .ours = "Wait", .attributes = kMsec, .differences = kStands},
     {.theirs = "SubTree", .ours = "SubTree", .words = kSubTreeWords},
     {.theirs = "IfThenElse", .ours = "IfThenElse", .differences = kBranches},
