@@ -716,6 +716,23 @@ TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
       "ID=\"Ours\"/></TreeNodesModel></root>";
   const std::string file = directory.file("modeled.xml", modeled);
   CHECK(contains(run_lockstep({"convert", "--to", "btcpp4", file}).err, "'WhileDoElse'"));
+  // By way of SubTrees, too.
+  const std::string trees =
+      "</BehaviorTree><BehaviorTree ID=\"Far\"><SubTree ID=\"Near\"/></BehaviorTree>"
+      "<BehaviorTree ID=\"Near\"><Wait seconds=\"1\"/></BehaviorTree>"
+      "<BehaviorTree ID=\"See\"><AlwaysSuccess/>";
+  const auto told_of_tree = [&](const std::string& id) {
+    std::string tree = around("lockstep=\"1\" main_tree_to_execute=\"Main\"",
+                              "<WhileDoElse><SubTree ID=\"" + id +
+                                  "\"/><AlwaysSuccess/></WhileDoElse>" + trees);
+    return contains(
+        run_lockstep({"convert", "--to", "btcpp4", directory.file("tree.xml", tree)}).err,
+        "tree.xml:3:1: warning: 'WhileDoElse' is not quite the same");
+  };
+  CHECK(told_of_tree("Near"));
+  CHECK(told_of_tree("Far"));
+  CHECK(told_of_tree("OfAnotherFile"));
+  CHECK_FALSE(told_of_tree("See"));
 }
 
 TEST_CASE("convert makes a list of the cases of a Switch, and back") {

@@ -25,6 +25,7 @@ Circumstances::Circumstances(const Document& document, const Conversion& convers
       conversion_(conversion),
       elements_(document.elements()),
       is_held_(elements_.size()),
+      runs_(elements_.size()),
       skips_(elements_.size()) {
   for (const std::uint32_t part : children_in(elements_, 0)) {
     const Attribute* id = document_.find_attribute(part, "ID");
@@ -98,13 +99,29 @@ void Circumstances::find_held() {
   }
 }
 
-// Whether something in it may run for several ticks.
-bool Circumstances::may_run(std::uint32_t element) const {
-  return std::ranges::any_of(std::views::iota(element, elements_[element].end), [&](auto node) {
-    const NodeType* known = conversion_.from_nodes.find(type_of(node));
-    if (known != nullptr) return known->can_run;
-    return elements_[node].tag == "Action" || is_modeled_action(type_of(node));
-  });
+// Whether something in it, or in a tree that it uses, may run for several ticks.
+bool Circumstances::may_run(std::uint32_t element) {
+  return std::ranges::any_of(std::views::iota(element, elements_[element].end),
+                             [&](auto node) { return may_run_itself(node); });
+}
+
+bool Circumstances::may_run_itself(std::uint32_t node) {
+  if (const std::uint32_t tree = tree_of(node); tree != 0) return tree_may_run(tree);
+  const NodeType* known = conversion_.from_nodes.find(type_of(node));
+  // The actions of a tree in another file are not seen.
+  if (known != nullptr) return known->can_run || known->category == NodeCategory::SubTree;
+  return elements_[node].tag == "Action" || is_modeled_action(type_of(node));
+}
+
+bool Circumstances::tree_may_run(std::uint32_t tree) {
+  if (runs_[tree] == Runs::Unknown) {
+    runs_[tree] = Runs::Never;  // for a tree that contains itself
+    if (levels_ == kMostNested) return false;
+    ++levels_;
+    runs_[tree] = may_run(tree) ? Runs::Perhaps : Runs::Never;
+    --levels_;
+  }
+  return runs_[tree] == Runs::Perhaps;
 }
 
 bool Circumstances::is_modeled_action(std::string_view type) const {

@@ -26,8 +26,11 @@ class Circumstances {
   std::uint32_t tree_of(std::uint32_t subtree) const;
   bool has_script(std::uint32_t element, Hook hook) const;
   void find_held();
-  bool may_run(std::uint32_t element) const;
+  bool may_run(std::uint32_t element);
+  bool may_run_itself(std::uint32_t node);
+  bool tree_may_run(std::uint32_t tree);
   bool is_modeled_action(std::string_view type) const;
+  enum class Runs : std::uint8_t { Unknown, Never, Perhaps };
   // What may skip an element: nothing, a leaf of a plugin that returns Skipped, a script.
   enum class Skips : std::uint8_t { Unknown, Nothing, Leaf, Script };
   Skips skips(std::uint32_t element);
@@ -40,8 +43,9 @@ class Circumstances {
   std::unordered_map<std::string_view, std::uint32_t> trees_;  // of each ID: the first
   std::unordered_set<std::string_view> modeled_actions_;
   std::vector<bool> is_held_;  // below a synchronized node, also by way of a SubTree
+  std::vector<Runs> runs_;     // of trees, as far as it is known
   std::vector<Skips> skips_;   // as far as it is known
-  int levels_ = 0;             // of skips(), one in the other
+  int levels_ = 0;             // of skips() or tree_may_run(), one in the other
 };
 
 }  // namespace lockstep::host
