@@ -970,6 +970,27 @@ TEST_CASE("convert --to btcpp4 takes a file for version 3") {
   CHECK(contains(not_there.err, "version 4 has no 'BlackboardCheckInt'"));
 }
 
+TEST_CASE("convert reads the entries of a file for version 3 in both directions") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.file(
+      "3.xml",
+      "<root main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Sequence>\n<SubTree ID=\"Go\" "
+      "to=\"place\"/><SubTreePlus ID=\"Go\" to=\"text\"/><Drive to=\"${goal}\"/></Sequence>"
+      "</BehaviorTree><BehaviorTree ID=\"Go\"><Drive to=\"{to}\"/></BehaviorTree></root>");
+  for (const std::string to : {"lockstep", "btcpp4"}) {
+    const Outcome outcome = run_lockstep({"convert", "--to", to, file});
+    INFO(to << outcome.err << outcome.out);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.out,
+                   "<SubTree ID=\"Go\" to=\"{place}\"/><SubTree ID=\"Go\" to=\"text\"/>"
+                   "<Drive to=\"{goal}\"/>"));
+    CHECK(contains(outcome.err, "3.xml:2:22: warning: 'place' is taken for an entry"));
+    CHECK(contains(outcome.err,
+                   "remove the braces that the result has around it: to=\"place\""));
+    CHECK_FALSE(contains(outcome.err, "'text' is taken"));
+  }
+}
+
 TEST_CASE("convert warns of a property, which a tree for BehaviorTree.CPP cannot declare") {
   const TemporaryDirectory directory;
   const std::string file = directory.file(

@@ -12,6 +12,7 @@
 #include "author/convert/circumstances.h"
 #include "author/convert/script_text.h"
 #include "author/convert/set_blackboard.h"
+#include "author/convert/since_4.h"
 #include "author/convert/switch_node.h"
 #include "base/core/identifier.h"
 #include "base/core/pre_order.h"
@@ -77,6 +78,7 @@ class Converter {
         text_(document.source()->text()),
         scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict),
         reads_nodes_(reads_nodes(document)),
+        is_older_(is_older_form(document)),
         declarations_(declarations(document)) {}
 
   std::optional<std::string> convert() {
@@ -454,6 +456,12 @@ class Converter {
     node_attribute(token, *found);
   }
 
+  std::string value_of(const Attribute& attribute) const {
+    const std::string_view tag = document_.elements()[open_.back().element].tag;
+    return is_older_ ? value_since_4(tag, attribute, !declarations_.empty(), report_)
+                     : std::string(attribute.value);
+  }
+
   void root_attribute(const XmlToken& token, const Attribute& attribute) {
     const std::string_view own = to_ours() ? "BTCPP_format" : "lockstep";
     if (attribute.name == own) {
@@ -567,10 +575,10 @@ class Converter {
   }
 
   void to_our_attribute(const XmlToken& token, const Attribute& attribute) {
-    const std::string_view name = attribute.name, value = attribute.value;
+    const std::string_view name = attribute.name;
     const bool is_subtree = pair_ != nullptr && pair_->ours == "SubTree";
     if (is_subtree && (name == "__shared_blackboard" || name == "__autoremap")) {
-      return replace(token, "_autoremap", value);
+      return replace(token, "_autoremap", attribute.value);
     }
     if (const auto hook = hook_named(name, conversion_.from)) {
       return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
@@ -584,6 +592,7 @@ class Converter {
     const bool is_dotted = name.find('.') != name.npos;  // of a leaf of ours: goal.order
     if (!is_port_name(name) && !is_dotted) return leave_out(token, attribute);
     if (name == "name") return convert_name(token, attribute);
+    const std::string value = value_of(attribute);
     const std::string_view key = btcpp::key_of(value, name);
     if (key.empty() && is_script(name)) return convert_script(token, attribute, name);
     if (key.empty()) return keep(token, attribute);
@@ -594,7 +603,7 @@ class Converter {
       return cannot(attribute.place, fmt::format("the key '{}'", brief(key)),
                     fmt::format("a key is {}", kIdentifierRule));
     }
-    if (value == fmt::format("{{{}}}", key)) return keep(token, attribute);
+    if (attribute.value == fmt::format("{{{}}}", key)) return keep(token, attribute);
     replace(token, name, fmt::format("{{{}}}", key));
   }
 
@@ -707,6 +716,7 @@ class Converter {
   std::string_view text_;
   Scanner scanner_;
   const bool reads_nodes_;
+  const bool is_older_;  // for version 3 of BehaviorTree.CPP
   const std::unordered_map<std::string_view, std::uint32_t> declarations_;  // of arguments: 'arg'
   TextEdit edits_;
   std::vector<Open> open_;

@@ -118,28 +118,8 @@ class Since4 {
     }
     const std::string_view name =
         type_ == nullptr ? it->name : btcpp::attribute_since_4(*type_, it->name);
-    const std::string value = value_since_4(tag, *it);
+    const std::string value = value_since_4(tag, *it, has_arguments_, report_);
     if (name != it->name || value != it->value) replace(token, end, name, value);
-  }
-
-  // In a SubTree a text named an entry, and "${key}" named one before version 3.
-  std::string value_since_4(std::string_view tag, const Attribute& it) const {
-    const bool is_port = is_port_name(it.name) && it.name != "name" && it.name != "ID";
-    if (!is_port) return std::string(it.value);
-    const auto value = without_blanks_around(it.value);
-    const bool is_dollar = value.starts_with("${") && value.ends_with('}');
-    if (is_dollar && !has_arguments_) return std::string(value.substr(1));
-    const bool is_entry =
-        tag == "SubTree" && !it.value.empty() && btcpp::key_of(it.value, it.name).empty();
-    if (!is_entry) return std::string(it.value);
-    if (!report_.counted_only(Severity::Warning)) {
-      report_.at_value("old-syntax"_code, it.place,
-                       fmt::format("'{}' is taken for an entry", brief(it.value)),
-                       "it was one in a SubTree of version 3; if a text is meant, write it "
-                       "without braces",
-                       Severity::Warning);
-    }
-    return fmt::format("{{{}}}", it.value);
   }
 
   void close(const XmlToken& token) {
@@ -182,6 +162,27 @@ class Since4 {
 bool is_older_form(const Document& document) {
   const Attribute* format = document.find_attribute(0, "BTCPP_format");
   return &document.rules() != &kLockstepRules && (format == nullptr || format->value == "3");
+}
+
+std::string value_since_4(std::string_view tag, const Attribute& it, bool has_arguments,
+                          const Reporter& report) {
+  const bool is_port = is_port_name(it.name) && it.name != "name" && it.name != "ID";
+  if (!is_port) return std::string(it.value);
+  const auto value = without_blanks_around(it.value);
+  const bool is_dollar = value.starts_with("${") && value.ends_with('}');
+  if (is_dollar && !has_arguments) return std::string(value.substr(1));
+  const bool is_entry =
+      tag == "SubTree" && !it.value.empty() && btcpp::key_of(it.value, it.name).empty();
+  if (!is_entry) return std::string(it.value);
+  if (!report.counted_only(Severity::Warning)) {
+    report.at_value("old-syntax"_code, it.place,
+                    fmt::format("'{}' is taken for an entry", brief(it.value)),
+                    fmt::format("it was one in a SubTree of version 3; if a text is meant, remove "
+                                "the braces that the result has around it: {}=\"{}\"",
+                                brief(it.name), brief(it.value)),
+                    Severity::Warning);
+  }
+  return fmt::format("{{{}}}", it.value);
 }
 
 std::optional<std::string> convert_since_4(const Document& document, const Catalog& nodes,
