@@ -991,6 +991,50 @@ TEST_CASE("convert reads the entries of a file for version 3 in both directions"
   }
 }
 
+TEST_CASE("convert writes the defaults that the model of a SubTree gives its ports") {
+  const TemporaryDirectory directory;
+  const auto tree = [](const std::string& root, const std::string& check,
+                       const std::string& subtrees) {
+    return "<root " + root +
+           " main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Inverter><Inverter>" + subtrees +
+           "</Inverter></Inverter></BehaviorTree><BehaviorTree ID=\"S\"><" + check +
+           " code=\"go == 'yes' &amp;&amp; n == 3\"/></BehaviorTree><TreeNodesModel>"
+           "<SubTree ID=\"S\"><input_port name=\"go\" default=\"yes\"/><inout_port name=\"n\" "
+           "default=\"{w}\"/><output_port name=\"way\" default=\"{=}\"/></SubTree>"
+           "</TreeNodesModel></root>";
+  };
+  const auto run = [&](const std::string& text) {
+    return run_lockstep({"run", directory.file("run.xml", text), "--clock", "virtual", "--view",
+                         "none", "--set", "w=3"})
+        .code;
+  };
+  const auto converted = [&](const std::string& text) {
+    return run_lockstep({"convert", directory.file("tree.xml", text)});
+  };
+  const std::string theirs = "BTCPP_format=\"4\"", ours = "lockstep=\"1\"";
+  const std::string text = tree(theirs, "ScriptCondition", "<SubTree ID=\"S\"/>");
+  CHECK(run(text) == 0);
+  const Outcome here = converted(text);
+  INFO(here.err << here.out);
+  CHECK(contains(here.out, "go=\"yes\""));
+  CHECK(contains(here.out, "n=\"{w}\""));
+  CHECK(contains(here.out, "way=\"{way}\""));
+  CHECK(run(here.out) == 0);
+  // Those that are given, or passed on, have no default.
+  CHECK(contains(converted(tree(theirs, "ScriptCondition",
+                                "<SubTree ID=\"S\" go=\"no\" n=\"1\" way=\"2\"/>"))
+                     .out,
+                 "<SubTree ID=\"S\" go=\"no\" n=\"1\" way=\"2\"/>"));
+  CHECK(contains(
+      converted(tree(theirs, "ScriptCondition", "<SubTree ID=\"S\" _autoremap=\"true\"/>")).out,
+      "<SubTree ID=\"S\" _autoremap=\"true\"/>"));
+  const Outcome there =
+      converted(tree(ours, "Check", "<SubTree ID=\"S\" n=\"3\" way=\"{go}\"/>"));
+  CHECK(there.code == 0);
+  CHECK(contains(there.err, "warning: for BehaviorTree.CPP, 'go' of this SubTree is 'yes'"));
+  CHECK_FALSE(contains(there.err, "'n' of this SubTree"));
+}
+
 TEST_CASE("convert warns of a property, which a tree for BehaviorTree.CPP cannot declare") {
   const TemporaryDirectory directory;
   const std::string file = directory.file(

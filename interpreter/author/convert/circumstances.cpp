@@ -4,6 +4,7 @@
 #include <ranges>
 
 #include "base/core/pre_order.h"
+#include "base/core/value.h"
 #include "tree/check/node_check.h"
 
 namespace lockstep::host {
@@ -58,6 +59,15 @@ bool Circumstances::apply(btcpp::When when, std::uint32_t element) {
       return has_child && is_decided_by_script(first);
   }
   return true;
+}
+
+bool Circumstances::passes_on_all(std::uint32_t subtree) const {
+  // The others are of version 3.
+  constexpr std::string_view kNames[] = {"_autoremap", "__autoremap", "__shared_blackboard"};
+  return std::ranges::any_of(kNames, [&](std::string_view name) {
+    const Attribute* it = document_.find_attribute(subtree, name);
+    return it != nullptr && parse_flag(it->value) == true;
+  });
 }
 
 std::string_view Circumstances::type_of(std::uint32_t element) const {

@@ -19,6 +19,8 @@ class Circumstances {
   Circumstances(const Document& document, const Conversion& conversion);
 
   bool apply(btcpp::When when, std::uint32_t element);
+  // Whether a SubTree passes on entries without an attribute.
+  bool passes_on_all(std::uint32_t subtree) const;
 
  private:
   std::string_view type_of(std::uint32_t element) const;

@@ -348,6 +348,43 @@ class Converter {
                  fmt::format("'{}' is not quite the same", brief(type)), std::string(it.what),
                  severity);
     }
+    if (pair_->ours == "SubTree") convert_subtree(element, token);
+  }
+
+  // There, a model gives a SubTree the ports that it leaves out. Here, models are for editors.
+  void convert_subtree(std::uint32_t element, const XmlToken& token) {
+    const Attribute* id = document_.find_attribute(element, "ID");
+    const auto model = conversion_.models.subtrees.find(id == nullptr ? "" : id->value);
+    const bool has_model = model != conversion_.models.subtrees.end();
+    if (!has_model || circumstances_.passes_on_all(element)) return;
+    for (const ModelPort& port : model->second.ports) {
+      const bool is_given = document_.find_attribute(element, port.name) != nullptr;
+      if (is_given || !port.default_value) continue;
+      to_ours() ? add_default(element, token, port) : warn_of_default(element, port);
+    }
+  }
+
+  void add_default(std::uint32_t element, const XmlToken& token, const ModelPort& port) {
+    const std::string_view key = btcpp::key_of(*port.default_value, port.name);
+    for (const std::string_view name : {port.name, key.empty() ? port.name : key}) {
+      if (is_identifier(name) && (name != port.name || !name.starts_with('_'))) continue;
+      return cannot(place_of(element),
+                    fmt::format("the key '{}', by the model of this SubTree,", brief(name)),
+                    fmt::format("a key is {}", kIdentifierRule));
+    }
+    add_attribute(token, port.name,
+                  key.empty() ? std::string(*port.default_value) : fmt::format("{{{}}}", key));
+  }
+
+  void warn_of_default(std::uint32_t element, const ModelPort& port) const {
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at(
+        "not-the-same"_code, place_of(element),
+        fmt::format("for BehaviorTree.CPP, '{}' of this SubTree is '{}'", brief(port.name),
+                    brief(*port.default_value)),
+        "that is the default of its model, which has no effect in lockstep's language: delete it, "
+        "or give the SubTree the attribute",
+        Severity::Warning);
   }
 
   // A leaf of a plugin that has the name of a built-in node there.
@@ -377,7 +414,7 @@ class Converter {
       return cannot(converted.place, converted.problem, converted.hint);
     }
     open_.back().tag = "WhileDoElse";
-    open_.back().before_children = fmt::format("<Check code={}/>", quoted(converted.code));
+    open_.back().before_children = fmt::format("<Check code={}/>", host::quoted(converted.code));
     open_.back().behind_children = fmt::format("<{}/>", converted.otherwise);
     if (report_.counted_only(Severity::Warning)) return;
     report_.at("not-the-same"_code, place_of(element),

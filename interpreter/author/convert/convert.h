@@ -8,6 +8,8 @@
 #include "language/document/document.h"
 #include "language/document/reporter.h"
 #include "tree/catalog.h"
+#include "tree/check/models.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 
@@ -16,6 +18,8 @@ struct Conversion {
   const LanguageRules& to;
   const Catalog& from_nodes;  // the built-in nodes of the language of the document
   const Catalog& to_nodes;    // and of the other one
+  const Models& models;       // of the document, and of the files that it includes
+  const Definition* meaning;  // of its main tree; null: it has errors, or none
 };
 
 // Nothing, with errors, if something in it cannot be said in the other language. Marks of editors

@@ -14,6 +14,7 @@
 #include "language/document/file.h"
 #include "run/loading/load.h"
 #include "run/loading/plugins.h"
+#include "tree/check/models.h"
 
 namespace lockstep::host {
 namespace {
@@ -24,24 +25,28 @@ struct ConvertOptions {
 };
 
 // All that `check --mock` finds without plugins.
-Diagnostics checked(const std::string& name, const std::string& text) {
-  LoadOptions options;
-  options.unknown = MissingNodes::AreMocked;
-  options.may_lack_main = true;
-  Diagnostics found;
-  const auto project = load_project_text(name, text, options, found);
-  LoadedPlugins none;
-  none.plugins = std::make_shared<PluginSet>();
-  if (project) static_cast<void>(meaning_of(project.get(), none, options, found));
-  return found;
-}
+struct Checked {
+  Checked(const std::string& name, std::string text) {
+    LoadOptions options;
+    options.unknown = MissingNodes::AreMocked;
+    options.may_lack_main = true;
+    plugins.plugins = std::make_shared<PluginSet>();
+    project = load_project_text(name, std::move(text), options, found);
+    if (!project) return;
+    if (auto all = meaning_of(project.get(), plugins, options, found))
+      definition = std::move(all->definition);
+  }
 
-// The errors of the result, if what it was made of has none.
-void check_result(const Document& document, const std::string& result, Diagnostics& diagnostics) {
-  const std::string& name = document.source()->path();
-  if (checked(name, std::string(document.source()->text())).has_errors()) return;
-  const Diagnostics found = checked(name, result);
-  for (const Diagnostic& it : found.all()) {
+  Diagnostics found;
+  LoadedPlugins plugins;             // none
+  std::unique_ptr<Project> project;  // the definition refers to it
+  std::optional<Definition> definition;
+};
+
+// The errors of the result.
+void check_result(const std::string& name, const std::string& result, Diagnostics& diagnostics) {
+  const Checked checked(name, result);
+  for (const Diagnostic& it : checked.found.all()) {
     if (it.severity != Severity::Error || it.location.file != name) continue;
     diagnostics.warning(
         "not-convertible"_code, {name},
@@ -76,9 +81,16 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   Sources sources;
   sources.add(document->source());
   const Reporter report(sources, diagnostics);
-  auto result = is_older ? convert_since_4(*document, to_nodes, report)
-                         : convert(*document, {from, to, from_nodes, to_nodes}, report);
-  if (result) check_result(*document, *result, diagnostics);
+  const Checked before(name, std::string(document->source()->text()));
+  Diagnostics told_by_check;
+  const Models models =
+      before.project ? read_models(*before.project, {before.project->sources, told_by_check})
+                     : Models();
+  const Definition* const meaning = before.definition ? &*before.definition : nullptr;
+  auto result =
+      is_older ? convert_since_4(*document, to_nodes, report)
+               : convert(*document, {from, to, from_nodes, to_nodes, models, meaning}, report);
+  if (result && !before.found.has_errors()) check_result(name, *result, diagnostics);
   return result;
 }
 
