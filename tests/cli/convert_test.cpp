@@ -722,9 +722,9 @@ TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
       "<BehaviorTree ID=\"Near\"><Wait seconds=\"1\"/></BehaviorTree>"
       "<BehaviorTree ID=\"See\"><AlwaysSuccess/>";
   const auto told_of_tree = [&](const std::string& id) {
-    std::string tree = around("lockstep=\"1\" main_tree_to_execute=\"Main\"",
-                              "<WhileDoElse><SubTree ID=\"" + id +
-                                  "\"/><AlwaysSuccess/></WhileDoElse>" + trees);
+    std::string tree =
+        around("lockstep=\"1\" main_tree_to_execute=\"Main\"",
+               "<WhileDoElse><SubTree ID=\"" + id + "\"/><AlwaysSuccess/></WhileDoElse>" + trees);
     return contains(
         run_lockstep({"convert", "--to", "btcpp4", directory.file("tree.xml", tree)}).err,
         "tree.xml:3:1: warning: 'WhileDoElse' is not quite the same");
@@ -985,8 +985,7 @@ TEST_CASE("convert reads the entries of a file for version 3 in both directions"
                    "<SubTree ID=\"Go\" to=\"{place}\"/><SubTree ID=\"Go\" to=\"text\"/>"
                    "<Drive to=\"{goal}\"/>"));
     CHECK(contains(outcome.err, "3.xml:2:22: warning: 'place' is taken for an entry"));
-    CHECK(contains(outcome.err,
-                   "remove the braces that the result has around it: to=\"place\""));
+    CHECK(contains(outcome.err, "remove the braces that the result has around it: to=\"place\""));
     CHECK_FALSE(contains(outcome.err, "'text' is taken"));
   }
 }
@@ -1021,18 +1020,55 @@ TEST_CASE("convert writes the defaults that the model of a SubTree gives its por
   CHECK(contains(here.out, "way=\"{way}\""));
   CHECK(run(here.out) == 0);
   // Those that are given, or passed on, have no default.
-  CHECK(contains(converted(tree(theirs, "ScriptCondition",
-                                "<SubTree ID=\"S\" go=\"no\" n=\"1\" way=\"2\"/>"))
-                     .out,
-                 "<SubTree ID=\"S\" go=\"no\" n=\"1\" way=\"2\"/>"));
+  CHECK(contains(
+      converted(tree(theirs, "ScriptCondition", "<SubTree ID=\"S\" go=\"no\" n=\"1\" way=\"2\"/>"))
+          .out,
+      "<SubTree ID=\"S\" go=\"no\" n=\"1\" way=\"2\"/>"));
   CHECK(contains(
       converted(tree(theirs, "ScriptCondition", "<SubTree ID=\"S\" _autoremap=\"true\"/>")).out,
       "<SubTree ID=\"S\" _autoremap=\"true\"/>"));
-  const Outcome there =
-      converted(tree(ours, "Check", "<SubTree ID=\"S\" n=\"3\" way=\"{go}\"/>"));
+  const Outcome there = converted(tree(ours, "Check", "<SubTree ID=\"S\" n=\"3\" way=\"{go}\"/>"));
   CHECK(there.code == 0);
   CHECK(contains(there.err, "warning: for BehaviorTree.CPP, 'go' of this SubTree is 'yes'"));
   CHECK_FALSE(contains(there.err, "'n' of this SubTree"));
+}
+
+TEST_CASE("convert warns of keys with '_' in front that a SubTree passes on in one language only") {
+  const TemporaryDirectory directory;
+  const auto tree = [](bool is_ours, const std::string& outer, const std::string& inner,
+                       const std::string& subtree = "<SubTree ID=\"S\" _autoremap=\"true\"/>") {
+    return std::string("<root ") + (is_ours ? "lockstep=\"1\"" : "BTCPP_format=\"4\"") +
+           " main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Sequence>" + outer + subtree +
+           "</Sequence></BehaviorTree><BehaviorTree ID=\"S\"><Inverter><Inverter>" + inner +
+           "</Inverter></Inverter></BehaviorTree></root>";
+  };
+  const auto script = [](const std::string& code) { return "<Script code=\"" + code + "\"/>"; };
+  const std::string is_told = "warning: '_autoremap' is not quite the same for ";
+  for (const bool is_ours : {true, false}) {
+    const auto told = [&](auto... parts) {
+      return run_lockstep({"convert", directory.file("tree.xml", tree(is_ours, parts...))}).err;
+    };
+    const std::string both = told(script("_p := 1"), script("_p := 5"));
+    INFO(both);
+    CHECK(contains(both, is_told + "'_p'"));
+    CHECK(contains(told(script("_p := 1"), std::string("<Say text=\"{_p}\"/>")), is_told));
+    CHECK(contains(told(std::string(), script("_p := 5"),
+                        std::string("<SubTree ID=\"S\" _autoremap=\"1\"/>"
+                                    "<SubTree ID=\"S\" name=\"t\" _autoremap=\"1\"/>")),
+                   is_told));
+    // Of one tree alone, and not passed on.
+    CHECK_FALSE(contains(told(script("p := 1"), script("_p := 5")), is_told));
+    CHECK_FALSE(contains(told(script("_p := 1"), script("_p := 5"),
+                              std::string("<SubTree ID=\"S\" _autoremap=\"false\"/>")),
+                         is_told));
+    CHECK_FALSE(contains(told(script("p := 1"), script("p := 5")), is_told));
+  }
+  // By way of a tree between them, too.
+  std::string deep = tree(true, script("_p := 1"), "<SubTree ID=\"T\" _autoremap=\"true\"/>");
+  deep.insert(deep.find("</root>"),
+              "<BehaviorTree ID=\"T\">" + script("_p := 5") + "</BehaviorTree>");
+  const std::string err = run_lockstep({"convert", directory.file("deep.xml", deep)}).err;
+  CHECK(err.find(is_told) != err.rfind(is_told));
 }
 
 TEST_CASE("convert warns of a property, which a tree for BehaviorTree.CPP cannot declare") {

@@ -21,11 +21,11 @@ class Circumstances {
   bool apply(btcpp::When when, std::uint32_t element);
   // Whether a SubTree passes on entries without an attribute.
   bool passes_on_all(std::uint32_t subtree) const;
-
- private:
   std::string_view type_of(std::uint32_t element) const;
   // The tree of a SubTree, if this file has it; 0 if not.
   std::uint32_t tree_of(std::uint32_t subtree) const;
+
+ private:
   bool has_script(std::uint32_t element, Hook hook) const;
   void find_held();
   bool may_run(std::uint32_t element);

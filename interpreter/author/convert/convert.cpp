@@ -10,6 +10,7 @@
 
 #include "author/convert/blackboard_check.h"
 #include "author/convert/circumstances.h"
+#include "author/convert/marked_keys.h"
 #include "author/convert/script_text.h"
 #include "author/convert/set_blackboard.h"
 #include "author/convert/since_4.h"
@@ -75,6 +76,7 @@ class Converter {
         conversion_(conversion),
         report_(report),
         circumstances_(document, conversion),
+        marked_keys_(document, conversion, circumstances_),
         text_(document.source()->text()),
         scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict),
         reads_nodes_(reads_nodes(document)),
@@ -351,8 +353,20 @@ class Converter {
     if (pair_->ours == "SubTree") convert_subtree(element, token);
   }
 
-  // There, a model gives a SubTree the ports that it leaves out. Here, models are for editors.
   void convert_subtree(std::uint32_t element, const XmlToken& token) {
+    if (const auto keys = marked_keys_.differ(element); !keys.empty()) {
+      report_.at("not-the-same"_code, place_of(element),
+                 fmt::format("'_autoremap' is not quite the same for {}", listed(keys)),
+                 "for BehaviorTree.CPP, a key with '_' in front is an entry of each tree; in "
+                 "lockstep's language _autoremap passes it on, and no attribute can: give an entry "
+                 "that trees share a name without '_', and others a different name in each tree",
+                 Severity::Warning);
+    }
+    convert_model(element, token);
+  }
+
+  // There, a model gives a SubTree the ports that it leaves out. Here, models are for editors.
+  void convert_model(std::uint32_t element, const XmlToken& token) {
     const Attribute* id = document_.find_attribute(element, "ID");
     const auto model = conversion_.models.subtrees.find(id == nullptr ? "" : id->value);
     const bool has_model = model != conversion_.models.subtrees.end();
@@ -750,6 +764,7 @@ class Converter {
   const Conversion& conversion_;
   const Reporter& report_;
   Circumstances circumstances_;
+  MarkedKeys marked_keys_;
   std::string_view text_;
   Scanner scanner_;
   const bool reads_nodes_;

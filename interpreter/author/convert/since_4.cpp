@@ -75,7 +75,8 @@ class Since4 {
     if (since != token.name) rename(token.begin + 1, token.name, since);
     open_.push_back({token.name, since});
     if (!check_) return;
-    open_.back().before_children = fmt::format("<ScriptCondition code={}/>", host::quoted(check_->code));
+    open_.back().before_children =
+        fmt::format("<ScriptCondition code={}/>", host::quoted(check_->code));
     open_.back().behind_children = fmt::format("<{}/>", check_->otherwise);
   }
 

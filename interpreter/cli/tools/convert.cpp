@@ -83,13 +83,13 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   const Reporter report(sources, diagnostics);
   const Checked before(name, std::string(document->source()->text()));
   Diagnostics told_by_check;
-  const Models models =
-      before.project ? read_models(*before.project, {before.project->sources, told_by_check})
-                     : Models();
+  const Models models = before.project
+                            ? read_models(*before.project, {before.project->sources, told_by_check})
+                            : Models();
   const Definition* const meaning = before.definition ? &*before.definition : nullptr;
-  auto result =
-      is_older ? convert_since_4(*document, to_nodes, report)
-               : convert(*document, {from, to, from_nodes, to_nodes, models, meaning}, report);
+  auto result = is_older
+                    ? convert_since_4(*document, to_nodes, report)
+                    : convert(*document, {from, to, from_nodes, to_nodes, models, meaning}, report);
   if (result && !before.found.has_errors()) check_result(name, *result, diagnostics);
   return result;
 }
