@@ -882,12 +882,44 @@ TEST_CASE("convert writes a SetBlackboard as a Script") {
         R"(<Script code="to := from" skip_if="far"/>)");
   const Outcome explicit_form =
       converted(R"(<Action ID="SetBlackboard" output_key="a" value="007"/>)");
-  CHECK(contains(explicit_form.out, R"(<Script code="a := 7"/>)"));
+  CHECK(contains(explicit_form.out, R"(<Script code="a := '007'"/>)"));
+  // A text that a number would change is a text.
+  for (const std::string text : {"007", "1.0", "1e3", "-0", " 5 ", "+5", "True"}) {
+    CHECK(line_of("output_key=\"k\" value=\"" + text + "\"") ==
+          "<Script code=\"k := '" + text + "'\"/>");
+  }
   CHECK(converted(R"(<SetBlackboard output_key="a b" value="1"/>)").code == 3);
   CHECK(converted(R"(<SetBlackboard output_key="a"/>)").code == 3);
   const Outcome by_name = converted(R"(<SetBlackboard output_key="{k}" value="1"/>)");
   CHECK(by_name.code == 3);
   CHECK(contains(by_name.err, "if 'k' itself is meant, write output_key=\"k\""));
+}
+
+TEST_CASE("convert writes a SetBlackboard with the type of its entry") {
+  const TemporaryDirectory directory;
+  const auto converted = [&](const std::string& value, const std::string& use,
+                             const std::string& models = {}) {
+    std::string tree =
+        around("BTCPP_format=\"4\"", "<Sequence><SetBlackboard value=\"" + value +
+                                         "\" output_key=\"x\"/>" + use + "</Sequence>");
+    tree.insert(tree.find("</root>"), "<TreeNodesModel>" + models + "</TreeNodesModel>");
+    return run_lockstep({"convert", directory.file("set.xml", tree)});
+  };
+  const auto model = [](const std::string& type) {
+    return "<Action ID=\"Say\"><input_port name=\"text\" type=\"" + type + "\"/></Action>";
+  };
+  const std::string say = "<Say text=\"{x}\"/>";
+  CHECK(contains(converted("1", say, model("std::string")).out, "code=\"x := '1'\""));
+  CHECK(contains(converted("true", say, model("std::string")).out, "code=\"x := 'true'\""));
+  CHECK(contains(converted("007", say, model("int")).out, "code=\"x := 7\""));
+  CHECK(contains(converted("1.0", say, model("double")).out, "code=\"x := 1\""));
+  CHECK(contains(converted("1", say, model("bool")).out, "code=\"x := true\""));
+  CHECK(contains(converted("5", "<Script code=\"x := 'a'\"/>").out, "code=\"x := '5'\""));
+  CHECK(contains(converted("05", "<Script code=\"x := 3\"/>").out, "code=\"x := 5\""));
+  const std::string is_told = "note: the type of the entry in 'x := 1' is not known";
+  CHECK(contains(converted("1", say).err, is_told));
+  CHECK_FALSE(contains(converted("1", say, model("int")).err, is_told));
+  CHECK_FALSE(contains(converted("one", say).err, "is not known"));
 }
 
 TEST_CASE("convert writes a SequenceWithMemory as a Sequence, and says what differs") {

@@ -19,6 +19,12 @@ std::string_view node_of(std::string_view result) {
   return result == "FAILURE" ? "AlwaysFailure" : std::string_view();
 }
 
+ValueType compared_type(std::string_view type) {
+  if (type.ends_with("Int")) return ValueType::Int;
+  if (type.ends_with("Double")) return ValueType::Double;
+  return type.ends_with("Bool") ? ValueType::Bool : ValueType::String;
+}
+
 }  // namespace
 
 bool is_blackboard_check(std::string_view type) {
@@ -54,8 +60,7 @@ ConvertedCheck converted_check(const Document& document, std::uint32_t element,
       }
       operand = key;
     } else {
-      const bool is_text = type.ends_with("String");
-      operand = is_text ? quoted_literal(it->value) : literal_of(it->value);
+      operand = literal_of(it->value, compared_type(type));
     }
     if (operand.empty()) {
       return fail(fmt::format("the value '{}'", brief(it->value)),

@@ -10,6 +10,7 @@
 
 #include "author/convert/blackboard_check.h"
 #include "author/convert/circumstances.h"
+#include "author/convert/entry_types.h"
 #include "author/convert/marked_keys.h"
 #include "author/convert/script_text.h"
 #include "author/convert/set_blackboard.h"
@@ -77,6 +78,7 @@ class Converter {
         report_(report),
         circumstances_(document, conversion),
         marked_keys_(document, conversion, circumstances_),
+        types_(conversion.meaning),
         text_(document.source()->text()),
         scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict),
         reads_nodes_(reads_nodes(document)),
@@ -438,9 +440,18 @@ class Converter {
   }
 
   void convert_setter(std::uint32_t element, const XmlToken& token) {
-    const ConvertedSetter converted = setter_to_ours(document_, element);
+    const EntryTypes::Found entry = types_.of(place_of(element), "output_key");
+    const ConvertedSetter converted = setter_to_ours(document_, element, entry.type);
     if (!converted.problem.empty()) {
       return cannot(converted.place, converted.problem, converted.hint);
+    }
+    const bool is_doubtful = !converted.is_text && !entry.type && entry.is_open;
+    if (is_doubtful && !std::exchange(told_of_types_, true)) {
+      report_.at("not-the-same"_code, place_of(element),
+                 fmt::format("the type of the entry in '{}' is not known", brief(converted.code)),
+                 "no model describes a leaf that uses it: if its port is a string, write the value "
+                 "in quotes",
+                 Severity::Note);
     }
     open_.back().tag = "Script";
     add_attribute(token, "code", converted.code);
@@ -765,6 +776,7 @@ class Converter {
   const Reporter& report_;
   Circumstances circumstances_;
   MarkedKeys marked_keys_;
+  EntryTypes types_;
   std::string_view text_;
   Scanner scanner_;
   const bool reads_nodes_;
@@ -779,6 +791,7 @@ class Converter {
   bool is_check_ = false;           // likewise
   std::string new_id_;              // of the innermost element, if it is explicit
   bool has_doctype_ = false;
+  bool told_of_types_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments
   std::set<std::string_view> told_of_skips_;

@@ -8,9 +8,10 @@
 #include "dialect/btcpp/words.h"
 
 namespace lockstep::host {
-ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element) {
+ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element,
+                               std::optional<ValueType> type) {
   const auto fail = [](std::string problem, std::string hint, Place place) {
-    return ConvertedSetter{{}, std::move(problem), std::move(hint), place};
+    return ConvertedSetter{.problem = std::move(problem), .hint = std::move(hint), .place = place};
   };
   const Attribute* target = document.find_attribute(element, "output_key");
   const Attribute* value = document.find_attribute(element, "value");
@@ -33,12 +34,13 @@ ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element) 
     if (!is_identifier(from)) return bad_key(from, *value);
     return {.code = fmt::format("{} := {}", key, from)};
   }
-  const std::string literal = literal_of(value->value);
+  const std::string literal = literal_of(value->value, type);
   if (literal.empty()) {
     return fail(fmt::format("the value '{}'", brief(value->value)),
                 "a text in a script has ' or \" in it, not both", value->place);
   }
-  return {.code = fmt::format("{} := {}", key, literal)};
+  const bool is_text = literal.starts_with('\'') || literal.starts_with('"');
+  return {.code = fmt::format("{} := {}", key, literal), .is_text = is_text};
 }
 
 }  // namespace lockstep::host

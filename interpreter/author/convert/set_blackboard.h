@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "base/core/value.h"
 #include "language/document/document.h"
 
 namespace lockstep::host {
@@ -11,10 +13,13 @@ namespace lockstep::host {
 // The script, or why it cannot be said here.
 struct ConvertedSetter {
   std::string code = {};
+  bool is_text = true;  // it assigns a text, or an entry
   std::string problem = {}, hint = {};
   Place place = {};  // of what is the problem
 };
 
-ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element);
+// `type`: of the entry, if it is known.
+ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element,
+                               std::optional<ValueType> type);
 
 }  // namespace lockstep::host
