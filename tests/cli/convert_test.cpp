@@ -922,6 +922,51 @@ TEST_CASE("convert writes a SetBlackboard with the type of its entry") {
   CHECK_FALSE(contains(converted("one", say).err, "is not known"));
 }
 
+TEST_CASE("convert writes a start value of a SubTree with the type of its entry") {
+  const TemporaryDirectory directory;
+  const auto tree = [](const std::string& attribute, const std::string& inside) {
+    return "<root lockstep=\"1\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><SubTree "
+           "ID=\"S\" " +
+           attribute + "/></BehaviorTree><BehaviorTree ID=\"S\"><Sequence memory=\"true\">" +
+           inside + "</Sequence></BehaviorTree></root>";
+  };
+  const auto converted = [&](const std::string& text) {
+    return run_lockstep({"convert", directory.file("tree.xml", text)});
+  };
+  const auto result_of = [&](const std::string& text) {
+    return run_lockstep({"run", directory.file("run.xml", text), "--clock", "virtual", "--view",
+                         "none", "--mock"})
+        .code;
+  };
+  const Row rows[] = {
+      {tree("k=\"true\"", "<Script code=\"k := !k\"/><Check code=\"!k\"/>"), "k=\"1\""},
+      {tree("k=\"false\"", "<Check code=\"!k\"/><Script code=\"k := true\"/>"), "k=\"0\""},
+      {tree("k=\"1\"", "<Script code=\"k := 0.5\"/><Check code=\"k == 0.5\"/>"), "k=\"1.0\""},
+      {tree("k=\"5\"", "<Script code=\"k += 1\"/><Check code=\"k == 6\"/>"), "k=\"5\""},
+      {tree("k=\"true\"", "<Say text=\"{k}\"/>"), "k=\"true\""},
+      {tree("k=\"true\"", "<Script code=\"k := 'a'\"/><Check code=\"k == 'a'\"/>"), "k=\"true\""},
+  };
+  for (const Row& row : rows) {
+    const Outcome outcome = converted(row.node);
+    INFO(row.node << outcome.out << outcome.err);
+    CHECK(contains(outcome.out, row.message));
+    CHECK(outcome.err.empty());
+    CHECK(result_of(row.node) == 0);
+    CHECK(result_of(outcome.out) == 0);
+  }
+  const std::string is_told = "may be another value for BehaviorTree.CPP";
+  CHECK(contains(converted(tree("k=\"true\"", "<Say text=\"{k}\"/><Check code=\"k\"/>")).err,
+                 "warning: 'true' " + is_told));
+  CHECK(contains(converted(tree("k=\"5\"", "<Script code=\"k := 'a'\"/>")).err,
+                 "warning: '5' " + is_told));
+  const std::string with_switch =
+      "<Switch on=\"k\" cases=\"true;false\"><AlwaysSuccess/><AlwaysSuccess/><AlwaysFailure/>"
+      "</Switch>";
+  CHECK_FALSE(contains(converted(tree("k=\"true\"", with_switch)).err, is_told));
+  CHECK(contains(converted(tree("k=\"true\"", "<Script code=\"k := !k\"/>" + with_switch)).err,
+                 is_told));
+}
+
 TEST_CASE("convert writes a SequenceWithMemory as a Sequence, and says what differs") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(

@@ -15,6 +15,7 @@
 #include "author/convert/script_text.h"
 #include "author/convert/set_blackboard.h"
 #include "author/convert/since_4.h"
+#include "author/convert/start_value.h"
 #include "author/convert/switch_node.h"
 #include "base/core/identifier.h"
 #include "base/core/pre_order.h"
@@ -572,7 +573,25 @@ class Converter {
     if (hook) return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
     if (is_script(attribute.name)) return convert_script(token, attribute, attribute.name);
     if (convert_at_cut(token, attribute)) return;
+    const bool is_subtree = pair_ != nullptr && pair_->ours == "SubTree";
+    const bool is_key = is_port_name(attribute.name) && attribute.name != "name" &&
+                        attribute.name != "ID" && attribute.value.find('{') == std::string::npos;
+    if (is_subtree && is_key) return convert_start(token, attribute);
     keep(token, attribute);
+  }
+
+  void convert_start(const XmlToken& token, const Attribute& attribute) {
+    const EntryTypes::Found entry =
+        types_.of_start_value(place_of(open_.back().element), attribute.name);
+    const ConvertedStart start = start_to_theirs(attribute.value, entry);
+    if (!start.difference.empty() && !report_.counted_only(Severity::Warning)) {
+      report_.at_value(
+          "not-the-same"_code, attribute.place,
+          fmt::format("'{}' may be another value for BehaviorTree.CPP", brief(attribute.value)),
+          start.difference, Severity::Warning);
+    }
+    start.text == attribute.value ? keep(token, attribute)
+                                  : replace(token, attribute.name, start.text);
   }
 
   bool convert_at_cut(const XmlToken& token, const Attribute& attribute) {

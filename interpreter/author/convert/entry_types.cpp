@@ -31,8 +31,9 @@ void EntryTypes::add(std::optional<ValueType>& seen, bool& differ, ValueType typ
 }
 
 void EntryTypes::see_ports(const DefinitionNode& node) {
+  if (node.type->category == NodeCategory::SubTree) return;
   // What a Switch compares may have any type.
-  if (node.type->category == NodeCategory::SubTree || node.type->id.starts_with("Switch")) return;
+  if (node.type->id.starts_with("Switch")) return see_switch(definition_->ports[node.first]);
   for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
     const Parameter& parameter = node.type->parameters[i];
     const Port& port = definition_->ports[node.first + i];
@@ -43,8 +44,14 @@ void EntryTypes::see_ports(const DefinitionNode& node) {
   }
 }
 
+void EntryTypes::see_switch(const Port& port) {
+  if (port.script == Port::kNone) return;
+  for (const std::uint32_t entry : definition_->scripts[port.script].entries)
+    ++entries_[entry].switches;
+}
+
 void EntryTypes::see_script(const BoundScript& script) {
-  for (const std::uint32_t entry : script.entries) entries_[entry].has_script = true;
+  for (const std::uint32_t entry : script.entries) ++entries_[entry].scripts;
   if (script.code == nullptr) return;
   std::vector<StaticType> types;
   for (const std::uint32_t entry : script.entries) types.push_back({found(entries_[entry]).type});
@@ -56,7 +63,10 @@ void EntryTypes::see_script(const BoundScript& script) {
 }
 
 EntryTypes::Found EntryTypes::found(const Seen& seen) {
-  Found found{{}, seen.port.has_value(), seen.has_script, seen.is_open};
+  Found found{.has_port = seen.port.has_value(),
+              .has_script = seen.scripts > seen.switches,
+              .has_switch = seen.switches > 0,
+              .is_open = seen.is_open};
   if (seen.port) {
     if (!seen.ports_differ) found.type = seen.port;
   } else if (seen.declared && (!seen.is_open || seen.script)) {
@@ -71,6 +81,7 @@ EntryTypes::Found EntryTypes::common(Found one, const Found& other) {
   if (one.type != other.type) one.type.reset();
   one.has_port |= other.has_port;
   one.has_script |= other.has_script;
+  one.has_switch |= other.has_switch;
   one.is_open |= other.is_open;
   return one;
 }

@@ -21,8 +21,9 @@ class EntryTypes {
   struct Found {
     std::optional<ValueType> type = {};
     bool has_port = false;    // that gives the type
-    bool has_script = false;  // that uses the entry
-    bool is_open = false;     // a leaf that nothing describes uses it
+    bool has_script = false;  // that uses the entry, apart from that of a Switch
+    bool has_switch = false;
+    bool is_open = false;  // a leaf that nothing describes uses it
   };
   // Of the entry that a parameter of the node at that place names, or of the value of its script.
   Found of(Place node, std::string_view parameter) const;
@@ -34,12 +35,14 @@ class EntryTypes {
   struct Seen {
     std::optional<ValueType> port = {}, script = {}, declared = {};
     bool ports_differ = false, scripts_differ = false;
-    bool has_script = false, is_open = false;
+    int scripts = 0, switches = 0;  // a Switch of lockstep's language has a script
+    bool is_open = false;
   };
   static void add(std::optional<ValueType>& seen, bool& differ, ValueType type);
   static Found found(const Seen& seen);
   static Found common(Found one, const Found& other);
   void see_ports(const DefinitionNode& node);
+  void see_switch(const Port& port);
   void see_script(const BoundScript& script);
   std::optional<ValueType> value_of(const BoundScript& script) const;
   std::string path_of(std::uint32_t subtree) const;
