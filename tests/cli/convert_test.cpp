@@ -759,6 +759,54 @@ TEST_CASE("convert makes a list of the cases of a Switch, and back") {
   CHECK(again.out == here.out);
 }
 
+TEST_CASE("a converted Switch chooses the same child, or convert warns") {
+  const TemporaryDirectory directory;
+  const auto converted = [&](const std::string& root, const std::string& nodes) {
+    return run_lockstep({"convert", directory.file("tree.xml", around(root, nodes))});
+  };
+  const auto result_of = [&](const std::string& text) {
+    return run_lockstep(
+               {"run", directory.file("run.xml", text), "--clock", "virtual", "--view", "none"})
+        .code;
+  };
+  const std::string children = "<AlwaysSuccess/><AlwaysFailure/><AlwaysFailure/></Switch";
+  const auto ours = [&](const std::string& script, const std::string& cases) {
+    return "<Sequence memory=\"true\"><Script code=\"" + script + "\"/><Switch on=\"d\" cases=\"" +
+           cases + "\">" + children + "></Sequence>";
+  };
+  const std::string of_number = "equals that case for BehaviorTree.CPP only";
+  const std::string of_flag = "in lockstep's language only";
+  const Row numbers[] = {{ours("d := 3 > 2", "true;false"), "case_1=\"1\" case_2=\"0\""},
+                         {ours("d := true", "True;0"), "case_1=\"1\" case_2=\"0\""},
+                         {ours("d := 1", "true;2"), "case_1=\"1\" case_2=\"2\""},
+                         {ours("d := 'true'", "true;false"), "case_1=\"true\" case_2=\"false\""}};
+  for (const Row& row : numbers) {
+    const Outcome outcome = converted("lockstep=\"1\"", row.node);
+    INFO(row.node << outcome.out << outcome.err);
+    CHECK(contains(outcome.out, row.message));
+    CHECK_FALSE(contains(outcome.err, of_number));
+    CHECK_FALSE(contains(outcome.err, of_flag));
+    CHECK(result_of(around("lockstep=\"1\"", row.node)) == 0);
+    CHECK(result_of(outcome.out) == 0);
+  }
+  CHECK(contains(converted("lockstep=\"1\"", ours("d := '07'", "7;8")).err, of_number));
+  CHECK(contains(converted("lockstep=\"1\"",
+                           "<Sequence><Look to=\"{d}\"/><Switch on=\"d\" cases=\"true;false\">" +
+                               children + "></Sequence>")
+                     .err,
+                 "equals the case 'true' " + of_flag));
+  const auto theirs = [&](const std::string& script, const std::string& first) {
+    return converted("BTCPP_format=\"4\"", "<Sequence><Script code=\"" + script +
+                                               "\"/><Switch2 variable=\"{f}\" case_1=\"" + first +
+                                               "\" case_2=\"8\">" + children + "2></Sequence>")
+        .err;
+  };
+  CHECK(contains(theirs("f := '07'", "7"), of_number));
+  CHECK_FALSE(contains(theirs("f := 7", "7"), of_number));
+  CHECK(contains(theirs("f := true", "true"), "equals the case 'true' " + of_flag));
+  CHECK_FALSE(contains(theirs("f := 'true'", "true"), of_flag));
+}
+
 TEST_CASE("convert tells what check finds wrong in the result only") {
   const TemporaryDirectory directory;
   const auto warnings_of = [&](const std::string& first) {

@@ -459,9 +459,10 @@ class Converter {
   }
 
   void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
+    const auto compared = types_.of(place_of(element), to_ours() ? "variable" : "on").type;
     const ConvertedSwitch converted =
-        to_ours() ? switch_to_ours(document_, element, switch_cases_there(type))
-                  : switch_to_theirs(document_, element, count_children(element));
+        to_ours() ? switch_to_ours(document_, element, switch_cases_there(type), compared)
+                  : switch_to_theirs(document_, element, count_children(element), compared);
     if (!converted.problem.empty()) {
       return cannot(converted.place, converted.problem, converted.hint);
     }
@@ -472,7 +473,8 @@ class Converter {
     report_.at("not-the-same"_code, place_of(element),
                fmt::format("'{}' is not quite the same", brief(type)),
                "for BehaviorTree.CPP, an entry without a value chooses the last child; in "
-               "lockstep's language it is an error",
+               "lockstep's language it is an error" +
+                   converted.difference,
                Severity::Warning);
   }
 

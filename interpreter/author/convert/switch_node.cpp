@@ -24,13 +24,14 @@ std::string case_name(std::size_t number) {
 
 class Switch {
  public:
-  Switch(const Document& document, std::uint32_t element)
-      : document_(document), element_(element) {}
+  Switch(const Document& document, std::uint32_t element, std::optional<ValueType> type)
+      : document_(document), element_(element), type_(type) {}
 
   ConvertedSwitch to_ours(std::uint32_t cases) {
     const std::string on = on_of("variable");
     std::vector<std::string> values;
     for (std::uint32_t number = 1; number <= cases; ++number) values.push_back(case_of(number));
+    compare_cases(values);
     add("on", on);
     add("cases", to_text(Value(std::move(values))));
     return std::move(result_);
@@ -49,7 +50,10 @@ class Switch {
       refuse("cases", "a Switch without a child for all other values",
              "add <AlwaysFailure/> as its last child");
     }
-    for (std::size_t i = 0; i < cases.size(); ++i) add(case_name(i + 1), cases[i]);
+    std::vector<std::string> values;
+    for (const std::string& it : cases) values.push_back(is_number() ? as_number(it) : it);
+    compare_cases(values);
+    for (std::size_t i = 0; i < values.size(); ++i) add(case_name(i + 1), values[i]);
     return std::move(result_);
   }
 
@@ -70,6 +74,37 @@ class Switch {
     result_.place = it != nullptr ? it->place : document_.elements()[element_].place;
     result_.problem = std::move(problem);
     result_.hint = std::move(hint);
+  }
+
+  bool is_number() const {
+    return type_ == ValueType::Bool || type_ == ValueType::Int || type_ == ValueType::Double ||
+           type_ == ValueType::Number;
+  }
+
+  static bool is_flag(std::string_view text) { return parse_flag(text) && !parse_double(text); }
+
+  // A bool is 1 or 0 there.
+  static std::string as_number(const std::string& text) {
+    return is_flag(text) ? *parse_flag(text) ? "1" : "0" : text;
+  }
+
+  // What is equal to a case in one of the languages only.
+  void compare_cases(std::span<const std::string> cases) {
+    const auto flag = std::ranges::find_if(cases, is_flag);
+    if (type_ != ValueType::String && flag != cases.end()) {
+      result_.difference += fmt::format(
+          "; a bool is 1 or 0 for BehaviorTree.CPP, and equals the case '{}' in lockstep's "
+          "language only",
+          brief(*flag));
+    }
+    const auto number = std::ranges::find_if(
+        cases, [](const std::string& text) { return parse_double(text).has_value(); });
+    if (!is_number() && number != cases.end()) {
+      result_.difference += fmt::format(
+          "; another text of the number {} equals that case for BehaviorTree.CPP only, as '07' "
+          "equals '7'",
+          brief(*number));
+    }
   }
 
   // An entry or a text, as a script.
@@ -113,6 +148,7 @@ class Switch {
 
   const Document& document_;
   std::uint32_t element_;
+  std::optional<ValueType> type_;
   ConvertedSwitch result_;
 };
 
@@ -128,14 +164,14 @@ bool is_switch_attribute(std::string_view name) {
   return name == "variable" || name == "on" || name == "cases" || name.starts_with("case_");
 }
 
-ConvertedSwitch switch_to_ours(const Document& document, std::uint32_t element,
-                               std::uint32_t cases) {
-  return Switch(document, element).to_ours(cases);
+ConvertedSwitch switch_to_ours(const Document& document, std::uint32_t element, std::uint32_t cases,
+                               std::optional<ValueType> type) {
+  return Switch(document, element, type).to_ours(cases);
 }
 
 ConvertedSwitch switch_to_theirs(const Document& document, std::uint32_t element,
-                                 std::uint32_t children) {
-  return Switch(document, element).to_theirs(children);
+                                 std::uint32_t children, std::optional<ValueType> type) {
+  return Switch(document, element, type).to_theirs(children);
 }
 
 }  // namespace lockstep::host

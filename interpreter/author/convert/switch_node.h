@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/value.h"
 #include "language/document/document.h"
 
 namespace lockstep::host {
@@ -15,6 +16,7 @@ namespace lockstep::host {
 // The attributes of one in the other language, in order; or why it cannot be said there.
 struct ConvertedSwitch {
   std::vector<std::pair<std::string, std::string>> attributes = {};
+  std::string difference = {};  // which case another value chooses there
   std::string problem = {}, hint = {};
   Place place = {};  // of what is the problem
 };
@@ -23,9 +25,10 @@ struct ConvertedSwitch {
 std::uint32_t switch_cases_there(std::string_view type);
 bool is_switch_attribute(std::string_view name);
 
-ConvertedSwitch switch_to_ours(const Document& document, std::uint32_t element,
-                               std::uint32_t cases);
+// `type`: of what the cases are compared with, if it is known.
+ConvertedSwitch switch_to_ours(const Document& document, std::uint32_t element, std::uint32_t cases,
+                               std::optional<ValueType> type);
 ConvertedSwitch switch_to_theirs(const Document& document, std::uint32_t element,
-                                 std::uint32_t children);
+                                 std::uint32_t children, std::optional<ValueType> type);
 
 }  // namespace lockstep::host
