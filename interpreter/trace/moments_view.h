@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -97,7 +98,27 @@ struct MomentsView {
       for (const MomentChange& it : changes_of(i)) column[it.node] = it.after;
     }
   }
-  // The same for those who need to know only what was so at any time. Of what has no order, each
+  // The last moment that ticked the node; none: it was ticked in no moment but the first.
+  std::optional<std::size_t> last_ticked(NodeIndex node) const {
+    std::optional<std::size_t> last;
+    NodeState state = first.empty() ? NodeState{} : first[node];
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      if (state.ticked() && (i > 0 || moments[i].times > 1)) last = i;
+      for (const MomentChange& it : changes_of(i)) {
+        if (it.node == node) state = it.after;
+      }
+    }
+    return last;
+  }
+  // The state after the moment before this one: of several equal ones, the last.
+  void before(std::size_t moment, std::vector<NodeState>& column) const {
+    const std::size_t last = moments[moment].times > 1 ? moment : moment - 1;
+    column.assign(first.begin(), first.end());
+    for (std::size_t i = 0; i < last; ++i) {
+      for (const MomentChange& it : changes_of(i)) column[it.node] = it.after;
+    }
+  }
+  // As `each`, for those who need to know only what was so at any time. Of what has no order, each
   // kind of result comes once, for all nodes that had it, and then the state after the tick.
   template <class Visit>  // (std::span<const NodeState> after, bool is_first, bool is_last)
   void each_part(std::vector<NodeState>& column, Visit visit) const {

@@ -189,6 +189,49 @@ TEST_CASE("moments: equal rounds of a tick are counted") {
         "0,0,success,Main/Sequence/retry/try/grasped,\n");
 }
 
+TEST_CASE("moments: the lines of a run tell that a leaf succeeded before it was reset") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      R"(<root lockstep="1"><BehaviorTree ID="T"><Parallel><KeepRunningUntilFailure><A name="a"/>
+      </KeepRunningUntilFailure><A name="b"/></Parallel></BehaviorTree></root>)");
+  const std::string leaves = directory.file(
+      "run.leaves", "@rate 10\nT/Parallel/KeepRunningUntilFailure/a = R S\nT/Parallel/b = R F\n");
+  const Outcome run = run_lockstep(
+      {"run", tree, "--mock", "--leaves", leaves, "--clock", "virtual", "--view", "plain"});
+  CHECK(contains(run.err + run.out, "T/Parallel/KeepRunningUntilFailure/a: success\n"));
+  CHECK(!contains(run.err + run.out, "a: halted"));
+}
+
+TEST_CASE("moments: log measure leaves out the children that the last decision of a tick left out") {
+  // `a` is skipped in a round that ends within a tick, and then runs; or runs not yet.
+  const std::string skipped_before =
+      R"(<AsyncSequence name="a" _skipIf="n == 0"><AlwaysSuccess/><Advance step="0.04"/></AsyncSequence>
+      <Advance name="b" step="0.02" _onSuccess="n += 1"/>)";
+  const std::string still_skipped =
+      R"(<Advance name="a" step="0.3" _skipIf="n &lt; 2"/>
+      <AsyncSequence name="b" _onSuccess="n += 1"><AlwaysSuccess/><Advance step="0.5"/></AsyncSequence>)";
+  for (const std::string& children : {skipped_before, still_skipped}) {
+    const TemporaryDirectory directory;
+    const std::string tree = directory.file(
+        "tree.xml",
+        R"(<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence><Script code="n := 0"/>
+        <Repeat num_cycles="3"><ParallelRelative name="p" delta="1">)" +
+            children + "</ParallelRelative></Repeat></Sequence></BehaviorTree></root>");
+    const std::string file = directory.path("run.jsonl");
+    const Outcome run = run_lockstep({"run", tree, "--plugin", "motion", "--clock", "virtual",
+                                      "--json", "--record", file});
+    REQUIRE(run.code == 0);
+    const json node = json::parse(run.out)["synchronized_nodes"][0];
+    const Outcome measured = run_lockstep({"log", "measure", file, "--measure", "progress-distance",
+                                           "--measure", "spread", "--json"});
+    INFO(run.out << measured.out << measured.err);
+    const json rows = json::parse(measured.out);
+    CHECK(rows.dump().find(node["progress_distance"].dump()) != std::string::npos);
+    CHECK(rows.dump().find(node["largest_spread"].dump()) != std::string::npos);
+  }
+}
+
 TEST_CASE("moments: what has no room is counted without its order") {
   // Each round of the outer node has another number of attempts, so no two moments are equal.
   const Recorded it(R"(<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main">

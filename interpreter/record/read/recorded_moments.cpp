@@ -122,8 +122,11 @@ void RecordedMoments::read_ended(const RecordedTick& tick) {
   }
 }
 
-// The columns are still those of the tick before.
+// The columns are still those of the tick before. A node that was ticked in several moments has
+// asked its children in each of them, the last time after the moment before.
 void RecordedMoments::read_used(Keeper& keeper, const RecordedTick& tick) {
+  within_.clear();
+  if (const auto last = tick.moments.last_ticked(keeper.node)) tick.moments.before(*last, within_);
   for (std::size_t child = 0; child < keeper.children.size(); ++child) {
     const NodeIndex node = keeper.children[child];
     const RecordedState& state = tick.nodes[node];
@@ -133,12 +136,17 @@ void RecordedMoments::read_used(Keeper& keeper, const RecordedTick& tick) {
   }
 }
 
+// What a node was when its parent asked.
+Status RecordedMoments::before(NodeIndex node) const {
+  return within_.empty() ? moment_.status(node) : within_[node].status();
+}
+
 // A parallel that does not synchronize is judged by what was there before its tick, and none of its
 // children has progress when it starts again. A child that it does not tick again counts as 1.
 double RecordedMoments::in_plain_parallel(const Keeper& keeper, std::size_t child,
                                           const RecordedState& state) const {
-  if (moment_.status(keeper.node) != Status::Running) return 0;
-  const bool has_failed = moment_.status(keeper.children[child]) == Status::Failure;
+  if (before(keeper.node) != Status::Running) return 0;
+  const bool has_failed = before(keeper.children[child]) == Status::Failure;
   return has_failed && !is_guard_[keeper.children[child]] && !state.ticked ? 1 : state.progress;
 }
 
@@ -147,11 +155,11 @@ double RecordedMoments::in_plain_parallel(const Keeper& keeper, std::size_t chil
 bool RecordedMoments::is_left_out(const Keeper& keeper, std::size_t child) const {
   if (keeper.holds_first && child > 0) return false;
   const bool is_group = !keeper.members.empty();
-  const bool runs = moment_.status(keeper.node) == Status::Running;
-  const Status last = moment_.status(is_group ? keeper.members[child] : keeper.children[child]);
+  const bool runs = before(keeper.node) == Status::Running;
+  const Status last = before(is_group ? keeper.members[child] : keeper.children[child]);
   if (runs && last == Status::Skipped) return true;
   if (!is_group || keeper.used[child] != 0) return false;
-  const auto was_skipped = [&](NodeIndex node) { return moment_.status(node) == Status::Skipped; };
+  const auto was_skipped = [&](NodeIndex node) { return before(node) == Status::Skipped; };
   if (runs && std::ranges::any_of(keeper.around[child], was_skipped)) return true;
   return keeper.ignores_idle && (!runs || last == Status::Idle);
 }

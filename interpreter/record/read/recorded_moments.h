@@ -33,6 +33,7 @@ class RecordedMoments {
   void read_used(Keeper& keeper, const RecordedTick& tick);
   double in_plain_parallel(const Keeper& keeper, std::size_t child,
                            const RecordedState& state) const;
+  Status before(NodeIndex node) const;
   bool is_left_out(const Keeper& keeper, std::size_t child) const;
   void read_ended(const RecordedTick& tick);
 
@@ -41,6 +42,7 @@ class RecordedMoments {
   std::vector<double> progress_, limit_, factor_;
   std::vector<const double*> limits_, factors_;
   std::vector<std::span<const double>> uses_;
+  std::vector<NodeState> within_;  // before a node asked for the last time; empty: before the tick
   std::vector<bool> is_guard_;  // it is ticked again after it has completed
   std::vector<Keeper> keepers_;
   std::vector<NodeIndex> ended_;

@@ -49,11 +49,20 @@ void ConsolePlain::before_tick(const Moment&, std::uint64_t tick, Nanoseconds ti
 void ConsolePlain::after_tick(const Moment& moment, const TickReport& report) {
   for (const Fault& fault : report.faults) tell_fault(fault);
   has_ticked_ = true;
-  tell_moment(moment);
+  tell_waits(moment);
+  if (moment.within.empty()) return tell_leaves(moment);
+  // A leaf may complete and be begun again, or be halted with what is around it, in one tick.
+  moment.within.each_part(within_, [&](std::span<const NodeState> states, bool, bool) {
+    for (Leaf& it : leaves_)
+      tell_leaf(moment, it, states[it.node].status(), states[it.node].ticked());
+  });
 }
 
-void ConsolePlain::tell_moment(const Moment& moment) {
+void ConsolePlain::tell_waits(const Moment& moment) {
   for (Watched& node : nodes_) tell_waits(moment, node);
+}
+
+void ConsolePlain::tell_leaves(const Moment& moment) {
   for (Leaf& leaf : leaves_) {
     tell_leaf(moment, leaf, moment.status(leaf.node), moment.ticked(leaf.node));
   }
@@ -61,7 +70,10 @@ void ConsolePlain::tell_moment(const Moment& moment) {
 
 void ConsolePlain::run_ended(const Moment& moment, const RunEnd& end) {
   for (const Fault& fault : moment.live->tolerated()) tell_fault(fault);
-  if (has_ticked_) tell_moment(moment);  // what was halted
+  if (has_ticked_) {  // what was halted
+    tell_waits(moment);
+    tell_leaves(moment);
+  }
   tell_left_out();
   if (short_waits_ > 0) print(fmt::format("... {} left out", counted(short_waits_, "short wait")));
   // The message of the command says which fault it is.

@@ -32,6 +32,7 @@ class ConsolePlain final : public Observer {
 
   // Before the run starts: it continues after a cut, with this tick.
   void continue_with(std::uint64_t tick, Nanoseconds time);
+  AskedOfRun asked() const override { return {.within = true}; }
   void run_started(const Moment& moment, const RunStart& start) override;
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(const Moment& moment, const TickReport& report) override;
@@ -64,7 +65,8 @@ class ConsolePlain final : public Observer {
   bool may_print();
   void tell_left_out();
   void tell_fault(const Fault& fault);
-  void tell_moment(const Moment& moment);
+  void tell_waits(const Moment& moment);
+  void tell_leaves(const Moment& moment);
   void tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
   void tell_result(const Moment& moment, Leaf& leaf, Status status);
@@ -87,6 +89,7 @@ class ConsolePlain final : public Observer {
   LineBudget fault_budget_{kBurstOfFaults};
   std::vector<Leaf> leaves_;
   std::vector<Watched> nodes_;
+  std::vector<NodeState> within_;
   bool has_ticked_ = false;
   std::uint64_t short_waits_ = 0;  // that were not reported
   std::atomic<std::uint64_t> tick_{0};
