@@ -95,6 +95,9 @@ struct Measure {
   std::string (*parse)(std::string_view argument, MeasureSpec& spec) = nullptr;
   // The text for an axis, if it depends on the argument. Null: axis and unit.
   std::string (*label)(const MeasureSpec& spec) = nullptr;
+  // Whether it counts from the first tick of the run, so that the rest of a run has no value. Null:
+  // the rest has the value of its ticks.
+  bool (*counts_from_start)(const MeasureSpec& spec) = nullptr;
 };
 
 std::span<const Measure* const> all_measures();

@@ -114,6 +114,7 @@ extern const Measure kPredictability{
           const std::string what =
               is_distance ? "predictability distance at " : "instant of progress ";
           return what + to_text(Value(spec.numbers[0])) + " (ticks)";
-        }};
+        },
+    .counts_from_start = [](const MeasureSpec&) { return true; }};
 
 }  // namespace lockstep::host

@@ -151,7 +151,8 @@ extern const Measure kProgressDistance{
         "only over its ticks K1 to K2, counted from 0",
     .make = make_distance,
     .is_possible = is_sum,
-    .parse = parse_samples};
+    .parse = parse_samples,
+    .counts_from_start = [](const MeasureSpec& spec) { return !spec.numbers.empty(); }};
 
 extern const Measure kProgressDistanceMean{
     .name = "progress-distance-mean",

@@ -45,8 +45,11 @@ Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
   std::vector<MeasuredValue> values;
   for (std::size_t column = 0; column < measuring.columns().size(); ++column) {
     const auto& [spec, node] = measuring.columns()[column];
-    values.push_back({node, spec, measuring.value(column, end), {}});
-    if (spec->measure->has_gap) values.back().gap = measuring.gap(column);
+    const Measure& measure = *spec->measure;
+    const bool is_unknown = header.first_tick > 0 && measure.counts_from_start != nullptr &&
+                            measure.counts_from_start(*spec);
+    values.push_back({node, spec, is_unknown ? kNoValue : measuring.value(column, end), {}});
+    if (measure.has_gap) values.back().gap = is_unknown ? kNoValue : measuring.gap(column);
   }
   return values;
 }
