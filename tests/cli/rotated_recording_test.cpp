@@ -73,6 +73,21 @@ TEST_CASE("two runs do not record parts of one name at once, and one after the o
   CHECK(files_in(directory) == std::vector<std::string>{"run.0001.jsonl", "tree.xml"});
 }
 
+TEST_CASE("a run that records parts does not replace a recording that is being written") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<AlwaysRunning/>"));
+  const std::string name = directory.path("run.jsonl");
+  Process first({.arguments = {"run", tree, "--view", "none", "--record", name}});
+  while (!std::filesystem::exists(name) || std::filesystem::file_size(name) == 0) usleep(1000);
+  const Outcome second = run_lockstep({"run", tree, "--clock", "virtual", "--max-ticks", "5",
+                                       "--record", name, "--record-rotate", "1MB"});
+  CHECK(second.code == 2);
+  CHECK(contains(second.err, "another run records to '" + name + "'"));
+  CHECK(first.end_by(SIGTERM).code == 128 + SIGTERM);
+  CHECK(files_in(directory) == std::vector<std::string>{"run.jsonl", "tree.xml"});
+  CHECK(run_lockstep({"log", "csv", name}).err == "");
+}
+
 TEST_CASE("the parts of a recording are the recording, by its name and one behind the other") {
   const TemporaryDirectory directory, parts;
   const std::string one = record(directory, "one.jsonl");
@@ -134,6 +149,15 @@ TEST_CASE("run --record-keep keeps the last parts, and they are read from where 
   CHECK(files_in(parts) == std::vector<std::string>{"run.0006.jsonl", "run.0007.jsonl"});
   const std::string one = record(directory, "one.jsonl");
   CHECK(output_of({"log", "csv"}, set) == output_of({"log", "csv", "--from", "2500"}, one));
+  const Outcome rest = run_lockstep({"log", "measure", set, "--measure", "ticks", "--measure",
+                                     "progress-distance", "--measure", "progress-distance[0:9]"});
+  CHECK(contains(rest.err, "note: the recording begins with tick 2500: "));
+  for (const std::string& line : lines(rest.out)) {
+    if (contains(line, "[0:9]")) CHECK(line.ends_with(" -"));
+  }
+  const Outcome whole = run_lockstep({"log", "measure", one, "--measure", "progress-distance[0:9]"});
+  CHECK(whole.err == "");
+  CHECK(!contains(whole.out, " -\n"));
 }
 
 TEST_CASE("a recording replaces all of an earlier one with its name, and nothing else") {

@@ -63,6 +63,8 @@ AppendFile::AppendFile(const std::string& path, std::size_t queue, FileForm form
   }
   take_failure();
   if (failed()) return;
+  look_for_others();
+  if (failed()) return;
   thread_ = own_thread([this] {
     try {
       write_until_stopped();
@@ -205,18 +207,27 @@ void AppendFile::add_text(std::string_view text) {
   }
 }
 
-// An earlier recording of this name. Its first part is replaced already.
+// An earlier recording of this name, whose first part is replaced. A run that still writes it is
+// another one, with another form of the name, or one that was resumed.
+void AppendFile::look_for_others() {
+  const auto add = [this](const std::string& it) {
+    if (it != (parts_.are_wanted ? part_name(path_, 1) : path_)) others_.push_back(it);
+  };
+  const auto add_parts = [&](const std::string& recording) {
+    add(recording);
+    std::ranges::for_each(parts_that_exist(recording), add);
+  };
+  std::ranges::for_each(resumed_recordings(path_), add_parts);
+  if (parts_.are_wanted) add_parts(path_);
+  const auto used = std::ranges::find_if(others_, is_written_elsewhere);
+  if (used == others_.end()) return;
+  file_->remove();
+  fail(fmt::format("cannot open '{}': another run records to '{}'", path_, *used));
+}
+
 void AppendFile::remove_others() {
   if (std::exchange(has_removed_others_, true)) return;
-  const auto remove = [this](const std::string& it) {
-    if (it != (parts_.are_wanted ? part_name(path_, 1) : path_)) ::unlink(it.c_str());
-  };
-  const auto remove_parts = [&](const std::string& recording) {
-    remove(recording);
-    std::ranges::for_each(parts_that_exist(recording), remove);
-  };
-  std::ranges::for_each(resumed_recordings(path_), remove_parts);
-  if (parts_.are_wanted) remove_parts(path_);
+  for (const std::string& it : others_) ::unlink(it.c_str());
   delete_oldest();
 }
 

@@ -87,6 +87,7 @@ class AppendFile {
   void begin_part(const PacketHead& head);
   void delete_oldest();
   void add_text(std::string_view text);
+  void look_for_others();
   void remove_others();
   void take_failure();
   void fail(const std::string& error);
@@ -105,6 +106,7 @@ class AppendFile {
   std::unique_ptr<GrowingFile> file_;
   std::atomic<std::uint64_t> part_{1}, part_size_{0};
   bool is_between_parts_ = false;
+  std::vector<std::string> others_;  // files of an earlier recording of this name
   bool has_removed_others_ = false;
   std::uint64_t deleted_ = 0;  // files, of those before and of the own parts
   std::string error_;          // constant once failed_ is set

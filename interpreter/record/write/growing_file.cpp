@@ -26,7 +26,8 @@ void make_nonblocking(int file) {
   }
 }
 
-// Whoever writes a file has a lock on it, which ends with the process.
+}  // namespace
+
 bool is_written_elsewhere(const std::string& path) {
   constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   struct stat status {};
@@ -34,8 +35,6 @@ bool is_written_elsewhere(const std::string& path) {
   const FileDescriptor file(open(path.c_str(), kFlags));
   return flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
-
-}  // namespace
 
 GrowingFile::GrowingFile(std::string path, const FileForm& form, Patience& patience)
     : path_(std::move(path)), out_(path_), file_(out_.descriptor()), patience_(patience) {

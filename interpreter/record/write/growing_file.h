@@ -30,6 +30,9 @@ struct Patience {
   bool is_over = false;
 };
 
+// Whoever writes a file has a lock on it, which ends with the process.
+bool is_written_elsewhere(const std::string& path);
+
 class GrowingFile {
  public:
   static constexpr std::size_t kText = 64u << 10;  // bytes: the most that are added at once
