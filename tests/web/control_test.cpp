@@ -225,6 +225,21 @@ TEST_CASE("the history has the run so far, from its recording if there is one") 
   }
 }
 
+TEST_CASE("the history is lines, also where the recording is none") {
+  const TemporaryDirectory directory;
+  for (const char* const name : {"run.jsonl.zst", "run.mcap"}) {
+    CAPTURE(name);
+    Controlled it(kPull, {"--clock", "virtual", "--set", "pause=3", "--record",
+                          directory.path(name)});
+    it.order({{"do", "step"}, {"ticks", 200}});
+    it.wait_for_tick(199);
+    const Response response = get(it.run().port(), "/history", it.token());
+    CHECK(contains(response.body, "{\"lockstep_recording\":1,"));
+    CHECK(contains(response.body, "{\"tick\":199,"));
+    CHECK(response.body.find('\0') == std::string::npos);
+  }
+}
+
 TEST_CASE("a long history comes at once") {
   const TemporaryDirectory directory;
   const std::string recording = directory.path("run.jsonl");

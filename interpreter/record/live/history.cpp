@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <utility>
 
@@ -11,7 +12,8 @@
 namespace lockstep::host {
 namespace {
 
-// Nothing but a file: a pipe would take what is for its reader.
+// Nothing but a file of lines: a pipe would take what is for its reader, and what is compressed, or
+// MCAP, is nothing for a client that reads lines. It gets what the log still has.
 std::FILE* open_regular(const std::string& path) {
   if (path.empty()) return nullptr;
   FileDescriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -19,6 +21,8 @@ std::FILE* open_regular(const std::string& path) {
   if (file.number() < 0 || fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) {
     return nullptr;
   }
+  char first = '{';
+  if (pread(file.number(), &first, 1, 0) == 1 && first != '{') return nullptr;
   return fdopen(fcntl(file.number(), F_DUPFD_CLOEXEC, 0), "r");
 }
 
