@@ -32,6 +32,11 @@ Result<AttachSocket> make_monitor_socket(const std::string& path) {
 
 void MonitorLink::tell(const std::string& link, bool opens) {
   registration_.set_link(link);
+  if (!registration_.is_listed()) {
+    messages().say(
+        "lockstep: warning: other commands do not find this run: its file in XDG_RUNTIME_DIR or /tmp "
+        "cannot be written, or belongs to a run with the same process number in another container\n");
+  }
   messages().say("monitor: " + link + "\n");
   if (opens && !open_in_browser(link)) {
     messages().say("lockstep: warning: --monitor-open: there is no xdg-open\n");

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -50,15 +51,21 @@ bool is_locked(const std::string& path) {
   return false;
 }
 
-// The file, locked by this program only; of no number if there can be none.
+// The file, locked by this program only; of no number if there can be none. Who lists the runs has
+// a lock for a moment. Who has it for longer is a run with the same process number, in another
+// container that shares the folder: a run does not wait for the end of that one.
 FileDescriptor make_locked(const std::string& path) {
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW;
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
   constexpr int kMostTries = 100;
+  constexpr timespec kPause{.tv_sec = 0, .tv_nsec = 1'000'000};
   for (int i = 0; i < kMostTries; ++i) {
     FileDescriptor file(open(path.c_str(), kFlags, S_IRUSR | S_IWUSR));
-    // Waits for who lists the runs at this moment.
-    if (file.number() < 0 || flock(file.number(), LOCK_EX) != 0) break;
-    if (is_at(file, path)) return file;
+    if (file.number() < 0) break;
+    if (flock(file.number(), LOCK_EX | LOCK_NB) != 0) {
+      nanosleep(&kPause, nullptr);
+    } else if (is_at(file, path) && ftruncate(file.number(), 0) == 0) {
+      return file;
+    }
   }
   return FileDescriptor();
 }

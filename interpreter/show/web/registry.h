@@ -33,6 +33,7 @@ class Registration {
   // Where the run may have a socket that was not asked for; "": nowhere.
   static std::string own_socket();
   void set_link(const std::string& link);
+  bool is_listed() const { return file_.number() >= 0; }
 
  private:
   std::string path_;

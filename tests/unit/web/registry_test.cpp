@@ -20,3 +20,15 @@ TEST_CASE("a run is listed although somebody lists the runs while it begins") {
     REQUIRE(registered_runs().size() == 1);
   }
 }
+
+TEST_CASE("a run does not wait for one with its process number that has the file") {
+  const test::TemporaryDirectory directory;
+  REQUIRE(setenv("XDG_RUNTIME_DIR", directory.path("").c_str(), 1) == 0);
+  Registration first("first.xml", "");
+  first.set_link("http://127.0.0.1:1");
+  const Registration second("second.xml", "");
+  CHECK(first.is_listed());
+  CHECK(!second.is_listed());
+  REQUIRE(registered_runs().size() == 1);
+  CHECK(registered_runs().front().link == "http://127.0.0.1:1");
+}
