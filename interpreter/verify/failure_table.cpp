@@ -9,9 +9,6 @@
 namespace lockstep::host {
 namespace {
 
-// Of a search: they are ticked once more, to see which leaves are halted.
-constexpr std::size_t kMostStatesToLookAt = 100'000;
-
 bool is_condition(const Tree& tree, std::uint32_t leaf) {
   return tree.leaves[leaf].type->category == NodeCategory::Condition;
 }
@@ -66,6 +63,8 @@ void apply(const FailureCase& it, double rate, LeafModels& models) {
   }
 }
 
+constexpr std::size_t kStatesBetweenLooks = 256;  // at the time
+
 class FailureTable {
  public:
   FailureTable(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
@@ -74,44 +73,64 @@ class FailureTable {
         nominal_(nominal_models(tree, models)),
         properties_(properties),
         options_(options),
-        usual_(search(tree, nominal_, properties, options.rate, limits())) {}
+        cases_(all_cases()),
+        usual_(search(tree, nominal_, properties, options.rate, limits(end_of_share(0)))) {}
 
   std::vector<FailureRow> rows() {
-    std::vector<FailureCase> singles;
-    for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
-      for (const auto how : {LeafFailure::AtOnce, LeafFailure::Late, LeafFailure::NeverEnds,
-                             LeafFailure::Fault, LeafFailure::Slow, LeafFailure::NoProgress}) {
-        if (can_fail_so(tree_, nominal_.leaves[leaf], leaf, how)) singles.push_back({leaf, how});
-      }
-    }
     std::vector<FailureRow> rows;
-    const auto add = [&](std::vector<FailureCase> cases) {
+    for (const auto& it : cases_) {
       const auto& stop = options_.limits.stop_signal;
-      if (stop == nullptr || stop() == 0) rows.push_back(row(std::move(cases)));
-    };
-    for (const FailureCase& it : singles) add({it});
-    if (!options_.pairs) return rows;
-    for (std::size_t i = 0; i < singles.size(); ++i) {
-      for (std::size_t j = i + 1; j < singles.size(); ++j)
-        if (singles[i].leaf != singles[j].leaf) add({singles[i], singles[j]});
+      if (stop == nullptr || stop() == 0) rows.push_back(row(it, end_of_share(rows.size() + 1)));
     }
     return rows;
   }
 
  private:
-  SearchLimits limits() const {
+  std::vector<std::vector<FailureCase>> all_cases() const {
+    std::vector<std::vector<FailureCase>> all;
+    for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
+      for (const auto how : {LeafFailure::AtOnce, LeafFailure::Late, LeafFailure::NeverEnds,
+                             LeafFailure::Fault, LeafFailure::Slow, LeafFailure::NoProgress}) {
+        if (can_fail_so(tree_, nominal_.leaves[leaf], leaf, how)) all.push_back({{leaf, how}});
+      }
+    }
+    if (!options_.pairs) return all;
+    const std::size_t singles = all.size();
+    for (std::size_t i = 0; i < singles; ++i) {
+      for (std::size_t j = i + 1; j < singles; ++j) {
+        const FailureCase one = all[i].front(), other = all[j].front();
+        if (one.leaf != other.leaf) all.push_back({one, other});
+      }
+    }
+    return all;
+  }
+
+  // The time that is left is in equal parts of what is left to do: a search without a failure, and
+  // one for each row. What one does not need is for those behind it.
+  std::optional<Nanoseconds> end_of_share(std::size_t done) const {
+    if (!options_.until) return std::nullopt;
+    const Nanoseconds now = monotonic_now();
+    return now + std::max(Nanoseconds(0), *options_.until - now) /
+                     static_cast<std::int64_t>(cases_.size() + 1 - done);
+  }
+
+  // The rest of a part is for what looks at the states.
+  SearchLimits limits(std::optional<Nanoseconds> until) const {
+    constexpr int kOfSearch = 3, kParts = 5;
     SearchLimits limits = options_.limits;
     limits.symmetry = false;  // each leaf is the one that it is
+    if (until) limits.time = std::max(Nanoseconds(0), *until - monotonic_now()) * kOfSearch / kParts;
     return limits;
   }
 
-  FailureRow row(std::vector<FailureCase> cases) const {
+  FailureRow row(std::vector<FailureCase> cases, std::optional<Nanoseconds> until) const {
     LeafModels models = nominal_;
     for (const FailureCase& it : cases) apply(it, options_.rate, models);
     models.accepted.clear();
-    const SearchResult found = search(tree_, models, properties_, options_.rate, limits());
+    const SearchResult found = search(tree_, models, properties_, options_.rate, limits(until));
     const Verdict verdict =
-        make_verdict(tree_, models, properties_, found, {.rate = options_.rate});
+        make_verdict(tree_, models, properties_, found,
+                     {.rate = options_.rate, .until = until});
     FailureRow row{std::move(cases)};
     row.is_complete = found.is_complete();
     row.faults = !found.faults.empty();
@@ -125,7 +144,7 @@ class FailureTable {
       if (std::ranges::count(verdict.findings, name_of_finding(properties_[i]), &Finding::name) > 0)
         row.violated.push_back(i);
     }
-    row.halted = halted(models, found);
+    row.is_complete &= look_for_halted(models, found, until, row.halted);
     if (!row.is_complete) return row;  // what a node never does is not known
     row.handled_by = handler(row.cases.front(), found.coverage);
     for (const LeafNode& leaf : tree_.leaves) {
@@ -148,32 +167,44 @@ class FailureTable {
     return std::nullopt;
   }
 
-  // In any tick.
-  std::vector<NodeIndex> halted(const LeafModels& models, const SearchResult& found) const {
+  // In any tick, or at the end that a fault is. False: there was no time to look at all ticks.
+  bool look_for_halted(const LeafModels& models, const SearchResult& found,
+                       std::optional<Nanoseconds> until, std::vector<NodeIndex>& halted) const {
     std::vector<bool> is_halted(tree_.leaves.size());
     const auto look = [&](const Stepper& stepper) {
       const auto marks = stepper.leaves().marks();
+      const bool ends = stepper.ticker().faulted();
       for (std::uint32_t leaf = 0; leaf < marks.size(); ++leaf) {
         const LeafMark& it = marks[leaf];
         const bool has_result = it.ticked && it.result != Status::Running;
-        if (it.touched && it.ended && !it.faulted && !has_result) is_halted[leaf] = true;
+        const bool was_halted = it.touched && it.ended && !has_result;
+        const bool runs =
+            ends && stepper.ticker().status(tree_.leaves[leaf].node) == Status::Running;
+        if ((was_halted || runs) && !it.faulted) is_halted[leaf] = true;
       }
       return true;
     };
     Tracer tracer(tree_, models, properties_, options_.rate, found);
-    const auto count = std::min<std::size_t>(found.store.size(), kMostStatesToLookAt);
-    for (std::size_t state = 0; state < count; ++state)
+    std::size_t state = 0;
+    for (; state < found.store.size(); ++state) {
+      if (state % kStatesBetweenLooks == 0 && is_over(until)) break;
       tracer.for_each_tick(static_cast<StateId>(state), look);
-    std::vector<NodeIndex> all;
+    }
     for (std::uint32_t leaf = 0; leaf < is_halted.size(); ++leaf)
-      if (is_halted[leaf]) all.push_back(tree_.leaves[leaf].node);
-    return all;
+      if (is_halted[leaf]) halted.push_back(tree_.leaves[leaf].node);
+    return state == found.store.size();
+  }
+
+  bool is_over(std::optional<Nanoseconds> until) const {
+    const auto& stop = options_.limits.stop_signal;
+    return (stop != nullptr && stop() != 0) || (until && monotonic_now() >= *until);
   }
 
   const Tree& tree_;
   const LeafModels nominal_;
   const std::span<const Property> properties_;
   const FailureTableOptions& options_;
+  const std::vector<std::vector<FailureCase>> cases_;  // of each row
   const SearchResult usual_;
 };
 

@@ -54,6 +54,7 @@ struct FailureTableOptions {
   double rate = 10;
   bool pairs = false;        // also each two failures of different leaves
   SearchLimits limits = {};  // of each row
+  std::optional<Nanoseconds> until = {};  // of monotonic_now: of all rows
 };
 
 // All other actions succeed, at a time that their models allow; conditions and facts are as the

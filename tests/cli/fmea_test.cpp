@@ -181,11 +181,31 @@ TEST_CASE("each row of the door's table of failures is what runs with that failu
     CHECK(seen.results == results);
     CHECK(seen.fault == row["fault"].get<bool>());
     CHECK(seen.may_not_end == row["may_not_end"].get<bool>());
-    CHECK(seen.halted == row["halted"].get<std::set<std::string>>());
+    // A recording has no line for the halts at the end that a fault is.
+    if (!seen.fault) CHECK(seen.halted == row["halted"].get<std::set<std::string>>());
     std::set<std::string> not_tried;
     std::ranges::set_difference(all, seen.started, std::inserter(not_tried, not_tried.end()));
     CHECK(not_tried == row["not_tried"].get<std::set<std::string>>());
     CHECK(row["handled_by"].is_null());  // no run with a failure succeeds
     CHECK(row["violated"].empty());
   }
+}
+
+TEST_CASE("the table of failures has each leaf that is halted, also late and at the end of a run") {
+  const TemporaryDirectory directory;
+  const auto halted = [&](const std::string& nodes, const std::string& leaf,
+                          const std::string& failure) {
+    const std::string tree = directory.file(
+        "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"T\">" + nodes + "</BehaviorTree></root>");
+    const Outcome outcome = run_lockstep({"verify", tree, "--mock", "--fmea", "--format", "json"});
+    for (const auto& row : parse_json(outcome.out)) {
+      const auto& it = row["failures"][0];
+      if (it["leaf"] == leaf && it["failure"] == failure) return row["halted"].dump();
+    }
+    return outcome.err;
+  };
+  CHECK(halted("<Timeout seconds=\"11000\"><A/></Timeout>", "T/Timeout/A", "never ends") ==
+        R"(["T/Timeout/A"])");
+  CHECK(halted("<Parallel><A name=\"a\"/><A name=\"b\"/></Parallel>", "T/Parallel/b", "fault") ==
+        R"(["T/Parallel/a"])");
 }

@@ -315,7 +315,10 @@ class VerifyCommand {
     SearchLine line;
     const std::vector<FailureRow> rows =
         failure_table(runnable.tree, models, properties_,
-                      {.rate = rate, .pairs = options_.pairs, .limits = limits(line)});
+                      {.rate = rate,
+                       .pairs = options_.pairs,
+                       .limits = limits(line),
+                       .until = end_of_search()});
     const FmeaReport report{runnable.tree, properties_, rows, rate};
     const int failed = write_results(to_text(report, options_.json ? "json" : options_.format));
     const int signal = StopSignals::received();
@@ -411,13 +414,16 @@ class VerifyCommand {
     return options_.format == "junit" ? to_junit(report) : to_text(report);
   }
 
+  std::optional<Nanoseconds> end_of_search() const {
+    if (!options_.time) return std::nullopt;
+    return began_ + from_seconds(*options_.time * kTimeOfSearch);
+  }
+
   SearchLimits limits(SearchLine& line) const {
     SearchLimits limits{.states = options_.states, .memory = usual_memory()};
     if (options_.memory_mib) limits.memory = *options_.memory_mib << 20u;
-    if (options_.time) {
-      const Nanoseconds until = began_ + from_seconds(*options_.time * kTimeOfSearch);
-      limits.time = std::max(Nanoseconds(0), until - monotonic_now());
-    }
+    if (const auto until = end_of_search())
+      limits.time = std::max(Nanoseconds(0), *until - monotonic_now());
     limits.values = options_.values;
     if (options_.depth) limits.depth = static_cast<std::uint32_t>(*options_.depth);
     limits.stop_signal = StopSignals::received;
