@@ -22,7 +22,10 @@ bool keeps_result(const Tree& tree, NodeIndex node) {
 LeafCalls::LeafCalls(const Shape& shape, const Tree& tree)
     : shape_(shape), moment_(shape.nodes.size()) {
   std::map<std::string, const LeafNode*> by_path;
-  for (const LeafNode& leaf : tree.leaves) by_path[tree.path(leaf.node)] = &leaf;
+  for (const LeafNode& leaf : tree.leaves) {
+    const bool is_leaf = tree.nodes[leaf.node].children == 0;  // no control node of a plugin
+    if (is_leaf) by_path[tree.path(leaf.node)] = &leaf;
+  }
   for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
     const auto leaf = by_path.find(shape.nodes[node].path);
     if (leaf == by_path.end()) continue;

@@ -41,6 +41,8 @@ class WordMaker {
       leaves_.push_back({node, leaf, &words.leaves[header.nodes[node].path]});
     }
     const auto writers_of = writers(tree);
+    const bool names_writers =
+        std::ranges::any_of(header.entries, [](const auto& it) { return !it.writers.empty(); });
     for (const ShapeEntry& key : header.entries) {
       auto& of_key = writers_.emplace_back();
       auto& by_script = setters_.emplace_back();
@@ -48,10 +50,13 @@ class WordMaker {
       const auto slot = std::ranges::find(tree.slots, key.key, &Slot::name);
       if (slot == tree.slots.end()) continue;
       initial = to_text(slot->initial);
+      // Of a leaf whose plugin is not at hand, only the recording knows what is an output.
+      if (names_writers) of_key = key.writers;
       for (const NodeIndex node : writers_of[static_cast<std::size_t>(slot - tree.slots.begin())]) {
         const auto at = recorded.find(tree.path(node));
         if (at == recorded.end()) continue;
-        of_key.push_back(at->second);
+        if (names_writers && std::ranges::find(key.writers, at->second) == key.writers.end()) continue;
+        if (!names_writers) of_key.push_back(at->second);
         by_script.push_back({at->second, node, is_script(tree, node)});
       }
     }
@@ -120,7 +125,7 @@ class WordMaker {
     return is_initial || is_ticked();
   }
 
-  enum class Lacks { Moments, Faults, Value, TooLong, Decision };
+  enum class Lacks { Moments, Faults, Value, OtherValues, TooLong, Decision };
 
   // Each once.
   template <class... Args>
@@ -206,13 +211,14 @@ class WordMaker {
       Status status = tick.moments.empty() ? results_.of(tick, it.node) : call.status;
       if (status == Status::Idle) status = Status::Running;
       const double after = call.next ? calls_.progress_at(moment, it.node, *call.next) : progress;
-      add_word(tick, it, status, call.begins, after);
+      add_word(tick, it, status, call.begins, after, calls.size() == 1);
     }
   }
 
-  // `progress`: after it; the next tick may tell better.
+  // `progress`: after it; the next tick may tell better. `is_only`: the leaf has no other word for
+  // the tick.
   void add_word(const RecordedTick& tick, const Leaf& it, Status status, bool begins,
-                double progress) {
+                double progress, bool is_only) {
     if (may_be_of_script(tree_, it.leaf->node, status, begins)) {
       const char step = status == Status::Skipped ? 'K' : status == Status::Failure ? 'F' : 'S';
       note(
@@ -227,7 +233,7 @@ class WordMaker {
     for (const RecordedFault& fault : tick.faults) {
       if (fault.node == it.node) word.kind = LeafWord::Kind::Fault;
     }
-    add_writes(tick, it, word);
+    add_writes(tick, it, word, is_only);
     it.words->push_back(std::move(word));
   }
 
@@ -243,6 +249,14 @@ class WordMaker {
     });
   }
 
+  // Whether another leaf may have written the entry after it.
+  bool is_shared(const RecordedTick& tick, std::size_t entry, NodeIndex leaf) const {
+    return std::ranges::any_of(setters_[entry], [&](const Setter& it) {
+      return it.in_tree > leaf && tree_.labels[it.in_tree].type->leaf != nullptr &&
+             tick.nodes[it.node].ticked;
+    });
+  }
+
   // Its ports that write an entry, and the slots of these.
   template <class Look>
   void each_output(const Leaf& it, Look look) const {
@@ -255,7 +269,7 @@ class WordMaker {
   }
 
   // Entries that have changed in a tick of a leaf that may write them.
-  void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word) {
+  void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word, bool is_only) {
     for (const RecordedEntry& entry : tick.entries) {
       const ShapeEntry& key = header_.entries[entry.entry];
       const auto& writers = writers_[entry.entry];
@@ -274,6 +288,11 @@ class WordMaker {
               fmt::format("what '{}' wrote to '{}' in tick {}", path, key.key, tick.tick));
         } else {
           word.written.emplace_back(port.name, *entry.value);
+          if (is_only && !is_shared(tick, entry.entry, it.leaf->node)) return;
+          note(Lacks::OtherValues,
+               "'{}' may have been written several times in tick {}: only its last value is "
+               "recorded, and '{}' writes that",
+               key.key, tick.tick, path);
         }
       });
     }

@@ -43,6 +43,12 @@ std::string RowValues::replaced(const Written& written, std::size_t row) {
   std::string text;
   std::string_view rest = written.value;
   for (auto at = rest.find(kBegin); at != std::string_view::npos; at = rest.find(kBegin)) {
+    if (at > 0 && rest[at - 1] == '$') {  // "$${" is "${", as in a tree
+      text += rest.substr(0, at - 1);
+      text += kBegin;
+      rest.remove_prefix(at + kBegin.size());
+      continue;
+    }
     const auto end = rest.find('}', at);
     if (end == std::string_view::npos) break;
     text += rest.substr(0, at);

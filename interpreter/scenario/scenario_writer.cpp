@@ -21,6 +21,15 @@
 namespace lockstep::host {
 namespace {
 
+// A value of an attribute, in which "${" is no value of a row.
+std::string literal(std::string_view text) {
+  constexpr std::string_view kOfRow = "${";
+  std::string safe(text);
+  for (auto at = safe.find(kOfRow); at != safe.npos; at = safe.find(kOfRow, at + 1 + kOfRow.size()))
+    safe.insert(at, 1, '$');
+  return escaped(safe);
+}
+
 constexpr std::string_view kEnd = "</scenarios>";
 
 // "R0.1 R0.2*3 S"
@@ -89,25 +98,25 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
     for (auto at = safe.find("--"); at != std::string::npos; at = safe.find("--")) safe[at] = ' ';
     text += fmt::format("  <!-- {} -->\n", safe);
   }
-  text += fmt::format("  <scenario name=\"{}\"", escaped(about.name));
-  if (!about.tree.empty()) text += fmt::format(" tree=\"{}\"", escaped(about.tree));
-  if (!about.main.empty()) text += fmt::format(" main=\"{}\"", escaped(about.main));
+  text += fmt::format("  <scenario name=\"{}\"", literal(about.name));
+  if (!about.tree.empty()) text += fmt::format(" tree=\"{}\"", literal(about.tree));
+  if (!about.main.empty()) text += fmt::format(" main=\"{}\"", literal(about.main));
   if (words.rate) text += fmt::format(" rate=\"{}\"", *words.rate);
-  if (!words.tick.empty()) text += fmt::format(" tick=\"{}\"", escaped(words.tick));
+  if (!words.tick.empty()) text += fmt::format(" tick=\"{}\"", literal(words.tick));
   const bool is_cut = words.result.empty() || words.result == "stopped";
   if (is_cut && words.ticks && about.has_limit)
     text += fmt::format(" max-ticks=\"{}\"", std::max<std::uint64_t>(*words.ticks, 1));
   text += ">\n";
   for (const auto& [name, value] : words.arguments) {
-    text += fmt::format("    <arg name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
+    text += fmt::format("    <arg name=\"{}\" value=\"{}\"/>\n", name, literal(value));
   }
   for (const auto& it : words.changes) {
-    text += fmt::format("    <set key=\"{}\" value=\"{}\" tick=\"{}\"/>\n", escaped(it.key),
-                        escaped(it.value), it.tick);
+    text += fmt::format("    <set key=\"{}\" value=\"{}\" tick=\"{}\"/>\n", literal(it.key),
+                        literal(it.value), it.tick);
   }
   for (const auto& [path, leaf] : words.leaves) {
-    text += fmt::format("    <leaf path=\"{}\" does=\"{}\"/>\n", escaped(path),
-                        escaped(words_text(leaf)));
+    text += fmt::format("    <leaf path=\"{}\" does=\"{}\"/>\n", literal(path),
+                        literal(words_text(leaf)));
   }
   for (const std::string& it : about.expected) {
     text += fmt::format("    <expect>{}</expect>\n", escaped(it));
