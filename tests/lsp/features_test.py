@@ -221,6 +221,14 @@ class Features(Session):
         self.assertIn("The other one.", hover("<SubTree ID=\"Ot|her\"/>"))
         self.assertIsNone(hover("|"))
 
+    def test_hover_of_an_entry_that_a_name_writes(self):
+        text = """<root BTCPP_format="4"><BehaviorTree ID="Main"><Sequence>
+<SetBlackboard value="1" output_key="go|al"/>
+<ScriptCondition code="goal == 1"/></Sequence></BehaviorTree></root>"""
+        found = self.client.at("textDocument/hover", self.path, *self.put(text))["contents"]["value"]
+        self.assertIn("written by SetBlackboard, line 2", found)
+        self.assertIn("read by ScriptCondition, line 3", found)
+
     def test_definition_and_references(self):
         def places(method, line):
             place = self.put(HEAD + line + TAIL)
@@ -344,6 +352,18 @@ class Features(Session):
                                  self.all_renamed(part, own, "name=\"gr|ab", "take"))
                 self.assertEqual({self.path.name: ["meet", "meet"]},
                                  self.all_renamed(self.path, text, "name=\"bo|th", "meet"))
+
+    def test_a_rename_waits_for_what_changes_in_other_files(self):
+        part, other = (Path(self.directory.name) / name for name in ("dock.xml", "other.xml"))
+        own = """<root lockstep="1"><BehaviorTree ID="Dock"><AlwaysSuccess/></BehaviorTree></root>"""
+        part.write_text(own)
+        uses = """<root lockstep="1"><include path="dock.xml"/><BehaviorTree ID="Main"><SubTree ID="Dock"/></BehaviorTree></root>"""
+        self.client.open(part)
+        self.client.open(other, uses.replace("Dock", "Main"))
+        for _ in range(10):
+            self.client.send_change(other, uses)
+            self.assertEqual({"dock.xml": ["All"], "other.xml": ["All"]}, self.all_renamed(part, own, "ID=\"Do|ck", "All"))
+            self.client.change(other, uses.replace("Dock", "Main"))
 
     def test_definition_in_files_that_are_included_as(self):
         part = Path(self.directory.name) / "truck.xml"

@@ -120,6 +120,9 @@ std::optional<Json> Server::ask(const Feature& feature, Message& message) {
   if (file == nullptr) return Json();
   if (file->analysis == nullptr || (!feature.takes_older_analysis && !file->is_settled()))
     return std::nullopt;
+  const auto is_settled = [](const auto& it) { return it.second.is_settled(); };
+  if (feature.needs_all_files && !std::ranges::all_of(workspace_.files(), is_settled))
+    return std::nullopt;
   return feature.answer({workspace_, *file, client_, params, *settings_});
 }
 

@@ -75,6 +75,9 @@ struct Parameter {
   bool is_hint = false;         // a model says so, which may be older than the leaf
   bool is_key = false;          // "k" is the entry k; "{k}" is the entry that has its name
   bool own_only = false;        // of an is_key: only an entry of this tree, not of an outer one
+
+  // Whether it is for an entry that the node may write. Of an is_key, one with own_only removes it.
+  bool writes() const { return direction != Direction::Input || is_key; }
 };
 
 struct Arity {

@@ -224,8 +224,7 @@ class Adviser {
       valued[i] = it.is_set_later || !std::holds_alternative<NoValue>(it.initial);
     }
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
-      const bool is_target = parameter.is_key && !parameter.own_only;
-      if (parameter.direction != Direction::Input || is_target) valued[entry] = true;
+      if (parameter.writes() && !parameter.own_only) valued[entry] = true;
     });
     for_each_name([&](const BoundScript& script, std::size_t name) {
       if (script.code->uses()[name].is_assigned) valued[script.entries[name]] = true;
@@ -270,8 +269,7 @@ class Adviser {
   void useless_values() const {
     std::vector<bool> changes(definition_.entries.size());
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
-      const bool is_target = parameter.is_key && !parameter.own_only;
-      if (parameter.direction != Direction::Input || is_target) changes[entry] = true;
+      if (parameter.writes() && !parameter.own_only) changes[entry] = true;
     });
     for_each_name([&](const BoundScript& script, std::size_t name) {
       if (script.code->uses()[name].is_assigned) changes[script.entries[name]] = true;

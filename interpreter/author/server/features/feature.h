@@ -26,6 +26,8 @@ struct Feature {
   Json (*answer)(const Question& question);
   // Else it is asked when the newest text was analyzed.
   bool takes_older_analysis = true;
+  // It changes all open files of a project: each must be analyzed to know whether it is one.
+  bool needs_all_files = false;
 };
 
 std::span<const Feature> features();

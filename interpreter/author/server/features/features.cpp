@@ -22,7 +22,7 @@ std::span<const Feature> features() {
       {"textDocument/foldingRange", folding_ranges},
       {"textDocument/formatting", formatting},
       {"textDocument/prepareRename", prepare_rename},
-      {"textDocument/rename", rename, false},
+      {"textDocument/rename", rename, false, true},
       {"textDocument/codeAction", code_actions, false},
       {"textDocument/codeLens", code_lenses},
       {"textDocument/inlayHint", inlay_hints},

@@ -91,7 +91,7 @@ class NameVisitor {
     NamePlace it = place(NameKind::Entry, element, {});
     it.scope = tree_around(tree_, element);
     it.parameter = parameter;
-    it.is_declaration = parameter != nullptr && parameter->direction != Direction::Input;
+    it.is_declaration = parameter != nullptr && parameter->writes();
     if (is_script(type, attribute.name, rules_)) return add_script(it, attribute);
     if (parameter != nullptr && parameter->is_template) return add_template(it, attribute);
     const bool takes_names = parameter != nullptr && (parameter->names_entry || parameter->is_key);
