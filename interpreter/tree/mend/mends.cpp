@@ -26,13 +26,27 @@ std::vector<std::string_view> quoted_words(std::string_view message) {
   }
 }
 
-std::string_view between(std::string_view text, std::string_view before, std::string_view after) {
+std::string_view behind(const std::string& text, std::string_view before) {
   const auto at = text.find(before);
-  if (at == text.npos) return {};
-  text.remove_prefix(at + before.size());
-  const auto end = text.find(after);
-  return end == text.npos ? std::string_view() : text.substr(0, end);
+  return at == text.npos ? std::string_view() : std::string_view(text).substr(at + before.size());
 }
+
+std::string_view between(const std::string& text, std::string_view before, std::string_view after) {
+  const std::string_view rest = behind(text, before);
+  const auto end = rest.find(after);
+  return end == rest.npos ? std::string_view() : rest.substr(0, end);
+}
+
+std::string_view rest_of_line(const std::string& text, std::string_view before) {
+  const std::string_view rest = behind(text, before);
+  return rest.substr(0, rest.find('\n'));
+}
+
+// What they return is a part of the text, which must live as long.
+std::string_view behind(std::string&& text, std::string_view before) = delete;
+std::string_view between(std::string&& text, std::string_view before,
+                         std::string_view after) = delete;
+std::string_view rest_of_line(std::string&& text, std::string_view before) = delete;
 
 bool is_of_word(char it) {
   return is_identifier(std::string_view(&it, 1)) || (it >= '0' && it <= '9');
@@ -397,7 +411,7 @@ class Mending {
   }
 
   void choose_tree() {
-    const auto trees = quoted_words(between(message_.hint + '\n', "trees: ", "\n"));
+    const auto trees = quoted_words(rest_of_line(message_.hint, "trees: "));
     if (trees.empty() || is_cut(trees.front()) || tree_.elements.empty()) return;
     add_attribute(tree_.elements.front(), "main_tree_to_execute", trees.front(), Sure::No);
   }
@@ -406,7 +420,7 @@ class Mending {
   void take_known() {
     const TolerantAttribute* const it = attribute();
     if (it == nullptr || !mends_.empty()) return;
-    for (const auto right : quoted_words(between(message_.hint + '\n', "project: ", "\n")))
+    for (const auto right : quoted_words(rest_of_line(message_.hint, "project: ")))
       if (!is_cut(right)) set_value(*it, right, Sure::No);
   }
 
