@@ -25,6 +25,12 @@ EntryTypes::EntryTypes(const Definition* definition) : definition_(definition) {
   for (const BoundScript& script : definition->scripts) see_script(script);
 }
 
+// Of a language, not a leaf that has such a name, as SwitchLight.
+bool EntryTypes::is_switch(const NodeType& type) {
+  return type.id.starts_with("Switch") && type.category == NodeCategory::Control &&
+         type.plugin.empty() && type.mock == nullptr && !type.parameters.empty();
+}
+
 void EntryTypes::add(std::optional<ValueType>& seen, bool& differ, ValueType type) {
   differ |= seen && seen != type;
   seen = type;
@@ -33,7 +39,7 @@ void EntryTypes::add(std::optional<ValueType>& seen, bool& differ, ValueType typ
 void EntryTypes::see_ports(const DefinitionNode& node) {
   if (node.type->category == NodeCategory::SubTree) return;
   // What a Switch compares may have any type.
-  if (node.type->id.starts_with("Switch")) return see_switch(definition_->ports[node.first]);
+  if (is_switch(*node.type)) return see_switch(definition_->ports[node.first]);
   for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
     const Parameter& parameter = node.type->parameters[i];
     const Port& port = definition_->ports[node.first + i];

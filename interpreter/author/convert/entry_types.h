@@ -38,6 +38,7 @@ class EntryTypes {
     int scripts = 0, switches = 0;  // a Switch of lockstep's language has a script
     bool is_open = false;
   };
+  static bool is_switch(const NodeType& type);
   static void add(std::optional<ValueType>& seen, bool& differ, ValueType type);
   static Found found(const Seen& seen);
   static Found common(Found one, const Found& other);
