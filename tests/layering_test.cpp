@@ -448,8 +448,8 @@ TEST_CASE("layers: nobody asks a node kind for its name") {
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
       ++number;
-      INFO(file << ':' << number << ": " << line);
-      CHECK(!std::regex_search(line, asks));
+      if (line.find("= \"") == line.npos || !std::regex_search(line, asks)) continue;
+      FAIL_CHECK(file << ':' << number << ": " << line);
     }
   }
 }

@@ -137,6 +137,20 @@ TEST_CASE("a program that resumes a run gets its time, its ticks and what its le
   CHECK_FALSE(second.not_kept());
 }
 
+TEST_CASE("a run that is given its times is resumed at the last of them") {
+  const KeptRuns runs("<Count/>");
+  runtime::Run first = runs.run();
+  CHECK_FALSE(first.keep(runs.file()));
+  for (const double time : {0.0, 0.25, 0.9}) first.tick(time);
+  runtime::Run second = runs.run();
+  const auto resumed = second.keep(runs.cut());
+  REQUIRE(resumed);
+  CHECK(resumed->ticks == 3);
+  CHECK(resumed->seconds == Approx(0.9));
+  CHECK_THROWS(second.tick(0.5));  // before the last one
+  CHECK(second.tick(1.3) == Status::Running);
+}
+
 TEST_CASE("properties continue with the run, and a line names those that begin after the cut") {
   const KeptRuns runs("<Count name=\"a\" ticks=\"6\"/>");
   const auto check = [](runtime::Run& run, const std::string& property) {
