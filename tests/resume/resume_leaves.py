@@ -13,12 +13,20 @@ import tempfile
 LOCKSTEP, *FOLDERS = sys.argv[1:]
 
 COUNT = '''#!/usr/bin/python3
+import os
+import time
 from lockstep_leaf import Action, Failed, serve
+
+PID = os.environ["LOG"] + ".pid"
 
 class Count(Action):
     "Counts its ticks."
     ticks: int = 20
     answer: str = "goes on"
+
+    def __init__(self):
+        with open(PID, "w") as file:
+            file.write(str(os.getpid()))
 
     def start(self):
         self.done = 0
@@ -45,6 +53,28 @@ class Count(Action):
             raise Failed("the table is gone")
         self.done = kept["done"]
         return self.answer != "begins"
+
+class Look(Action):
+    "After a cut, looks whether the process of Count is stopped by a signal, as expected."
+    stopped: bool
+    was_cut = False
+
+    def is_as_expected(self):
+        with open("/proc/" + open(PID).read() + "/stat") as file:
+            return (file.read().rpartition(")")[2].split()[0] == "T") == self.stopped
+
+    def tick(self):
+        until = time.monotonic() + 2
+        while self.was_cut and not self.is_as_expected() and time.monotonic() < until:
+            time.sleep(0.001)
+        return self.is_as_expected() if self.was_cut else None
+
+    def save(self):
+        return None
+
+    def restore(self, kept, cut):
+        self.was_cut = True
+        return True
 
 serve()
 '''
@@ -121,6 +151,18 @@ def test_a_held_leaf_in_python(directory):
     assert "held True" in reported and "info: continues at 2" in reported, reported
 
 
+def test_a_leaf_that_is_held_by_a_signal(directory):
+    "Its process is another one after the cut, and is stopped as that before it. At 0.5, Count is held."
+    plugins = '<plugin name="count" program="count.py" hold="signal"/>'
+    nodes = '<Parallel><ParallelAbsolute barriers="0.2"><Count name="it" ticks="10" answer="{}"/>{}</ParallelAbsolute>' \
+            '<Look name="look" stopped="{}"/></Parallel>'
+    for answer, is_stopped in ("goes on", "true"), ("begins", "false"):
+        resumed = Mission(directory, OURS, plugins, nodes.format(answer, CLOCK, is_stopped)).cut_and_resume(0.5)
+        assert resumed.returncode == 0, resumed.stderr
+        assert end_of(resumed, "look") == 0.5, resumed.stderr
+        assert answer == "begins" or end_of(resumed, "it") == 1.3, resumed.stderr
+
+
 def test_python_that_does_not_continue(directory):
     plugin = '<plugin name="count" program="count.py"/>'
     mission = Mission(directory, OURS, plugin, f'<Parallel><Count name="it" answer="begins"/>{CLOCK}</Parallel>')
@@ -141,6 +183,14 @@ def test_behaviortree_cpp(directory):
     for flag in "", ' isolate="true"':
         check_continues(directory, THEIRS, f'<plugin name="faulty"{flag}/>', '<Reach name="it" step="0.05"/>',
                         {0.3: "0.15", 0.8: "0.4"})
+
+
+def test_behaviortree_cpp_that_is_held(directory):
+    "onRestored does not learn it, so onPaused follows."
+    mission = Mission(directory, THEIRS, '<plugin name="faulty"/>',
+                      f'<ParallelAbsolute barriers="0.2"><Reach name="it" step="0.1"/>{CLOCK}</ParallelAbsolute>')
+    resumed = mission.cut_and_resume(0.5)
+    assert re.findall("it holds at .*|it goes on", resumed.stderr) == ["it holds at 0.2", "it goes on"], resumed.stderr
 
 
 def test_commit(directory):

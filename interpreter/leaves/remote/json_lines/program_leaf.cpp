@@ -268,10 +268,7 @@ void ProgramLeaf::halt() {
 
 void ProgramLeaf::pause() {
   if (fail_if_gone() || !has_begun_) return;
-  if (hold_ == Hold::Signal) {
-    is_held_ = true;
-    return conversation_.process().hold();
-  }
+  if (hold_ == Hold::Signal) return stop();
   request_.clear();
   request_.begin("pause", number_).field("now", now()).end();
   if (hold_ != Hold::Answered) {
@@ -281,6 +278,11 @@ void ProgramLeaf::pause() {
   send(Asked::Pause);
   if (!is_waiting() || !await(Asked::Pause)) return;
   if (const auto news = conversation_.take_error(number_); !news.error.empty()) fail(news.error);
+}
+
+void ProgramLeaf::stop() {
+  is_held_ = true;
+  conversation_.process().hold();
 }
 
 // While it is held, on the wall clock. A process that is stopped answers later.
@@ -342,6 +344,8 @@ lockstep_after_cut ProgramLeaf::restore(const void* bytes, std::size_t size,
   const auto news = conversation_.take(number_);
   if (!news.error.empty()) fail(news.error);
   has_begun_ = news.after_cut == LOCKSTEP_CONTINUES;
+  // The process of the run before was stopped. This one has to answer first.
+  if (has_begun_ && cut->held && hold_ == Hold::Signal) stop();
   return news.after_cut;
 }
 

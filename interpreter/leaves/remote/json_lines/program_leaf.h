@@ -53,6 +53,7 @@ class ProgramLeaf : public RemoteLeaf {
   lockstep_status take(Conversation::News news);
   void set_ports(std::string line);
   bool await(Conversation::Asked asked);
+  void stop();  // its process, by a signal
   void end_if_hanging(Nanoseconds since);
   void note_late(Nanoseconds since);
   std::string why_gone();  // "" while it is there

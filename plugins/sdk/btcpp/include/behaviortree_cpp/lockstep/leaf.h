@@ -99,14 +99,16 @@ struct Leaf {
       return kept.size();
     });
   }
-  // One that goes on is RUNNING, so that its next tick is no first one.
+  // One that goes on is RUNNING, so that its next tick is no first one. onRestored does not learn
+  // that it is held, so it is paused again.
   static lockstep_after_cut restore(void* self, const void* bytes, std::size_t size,
-                                    const lockstep_cut* /*cut*/) {
+                                    const lockstep_cut* cut) {
     Leaf& leaf = *static_cast<Leaf*>(self);
     return lockstep::detail::guarded(leaf.caller(), LOCKSTEP_STARTS_AGAIN + 0, [&] {
       const std::string kept(static_cast<const char*>(bytes), size);
       if (!leaf.hooks().restore(*leaf.node, kept)) return LOCKSTEP_STARTS_AGAIN + 0;
       leaf.node->setStatus(NodeStatus::RUNNING);
+      if (cut->held && leaf.hooks().pause != nullptr) leaf.hooks().pause(*leaf.node);
       return LOCKSTEP_CONTINUES + 0;
     });
   }
