@@ -107,6 +107,16 @@ def children(number):
     say(leaf=number, status="running")
 
 
+def stop_at(what):
+    "Stops lockstep and itself, once."
+    if os.environ.get("STOPS_AT") == what:
+        del os.environ["STOPS_AT"]
+        time.sleep(0.05)  # lockstep waits by then
+        with open(f"/proc/{os.getppid()}/stat") as guardian:
+            os.kill(int(guardian.read().rpartition(")")[2].split()[1]), signal.SIGSTOP)
+        os.kill(os.getpid(), signal.SIGSTOP)
+
+
 def slow(number):
     time.sleep(1)
     say(leaf=number, status="running", progress=0.5)
@@ -115,6 +125,7 @@ def slow(number):
 misdeeds = {"list": list_, **{name: thing for name, thing in list(globals().items()) if callable(thing)}}
 with open(os.environ.get("PIDS", os.devnull), "a") as pids:
     print(os.getpid(), file=pids)
+stop_at("hello")
 say(lockstep=1, leaves=[
     {"id": "Misbehave", "progress": True, "ports": [
         {"name": "how", "type": "string"},
@@ -125,6 +136,7 @@ if "STUBBORN" in os.environ:
 for line in sys.stdin:
     request = json.loads(line)
     do, number = request["do"], request["leaf"]
+    stop_at(do)
     if do == "create":
         ticks[number] = 0
         say(leaf=number, done=True)
@@ -140,6 +152,7 @@ for line in sys.stdin:
         if hows[number] == "deaf":
             time.sleep(1000)
         say(leaf=number, done=True)
+stop_at("end")
 if "STUBBORN" in os.environ:
     time.sleep(1000)
 while "FLOOD" in os.environ:

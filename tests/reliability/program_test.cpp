@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <deque>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -166,6 +167,53 @@ TEST_CASE("a program that sleeps in a tick costs no other leaf its tick, and is 
   CHECK(contains(outcome.err, "Main/Parallel/arm: success"));
   CHECK(contains(outcome.err, "Main/Parallel/bad: warning: its program is late"));
   CHECK(it.are_all_gone());
+}
+
+TEST_CASE("time in which lockstep is stopped counts for no limit of a program") {
+  const std::string plugin = R"(<root lockstep="1"><plugin name="hostile" program="hostile.py"/>)";
+  const std::string leaf = R"(<Misbehave name="bad" how="nothing wrong"/>)";
+  const std::string begin = plugin + R"(<BehaviorTree ID="Main">)";
+  const std::string end = "</BehaviorTree></root>";
+  const std::string runs = begin + leaf + end;
+  const std::string halts = begin + R"(<Fallback memory="true"><Timeout seconds="0.1">)" + leaf +
+                            R"(</Timeout><Wait seconds="0.2"/></Fallback>)" + end;
+  struct Case {
+    const char *at, *clock;
+    const std::string& tree;
+    int code;
+  };
+  const Case cases[] = {
+      {"hello", "virtual", runs, 124}, {"create", "virtual", runs, 124},
+      {"tick", "virtual", runs, 124},  {"tick", "wall", runs, 124},
+      {"halt", "virtual", halts, 0},   {"halt", "wall", halts, 0},
+      {"halt", "wall", runs, 124},     {"end", "virtual", runs, 124},
+      {"end", "wall", runs, 124},
+  };
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr int kLimit = 4;  // in which a program must also have begun
+#else
+  constexpr int kLimit = 1;
+#endif
+  const std::string limit = std::to_string(kLimit);
+  std::deque<ProgramRun> programs;
+  std::deque<Process> processes;
+  for (const Case& it : cases) {
+    ProgramRun& run =
+        programs.emplace_back(it.tree, std::vector<std::string>{"--clock", it.clock, "--hang-limit",
+                                                                limit, "--halt-limit", limit});
+    run.call.environment["STOPS_AT"] = it.at;
+    processes.emplace_back(run.call).wait_for_stop();
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200) * kLimit);
+  for (const Process& process : processes) process.signal(SIGCONT);
+  run_lockstep({"--version"});  // the programs go on a moment later
+  for (std::size_t i = 0; i < std::size(cases); ++i) {
+    for (const pid_t program : programs[i].processes()) kill(program, SIGCONT);
+    const Outcome outcome = processes[i].finish();
+    INFO(cases[i].at << " on the " << cases[i].clock << " clock\n" << outcome.err);
+    CHECK(outcome.code == cases[i].code);
+    CHECK_FALSE(contains(outcome.err, "its program did not"));
+  }
 }
 
 TEST_CASE("held by a signal, the process of a leaf is stopped, until it is halted") {

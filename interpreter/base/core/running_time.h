@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "base/core/clock.h"
 
@@ -30,6 +31,24 @@ class RunningTime {
  private:
   Nanoseconds interval_;
   Nanoseconds last_;
+};
+
+// The clock of the machine without the time in which this process was stopped, for the limits of
+// what other processes do. Who measures with it looks at it at least each interval.
+class RunningClock {
+ public:
+  static constexpr Nanoseconds kInterval = std::chrono::milliseconds(20);
+
+  Nanoseconds now() { return now_ += time_.look(monotonic_now()); }
+  // How long to wait before the next look, 0 from `until` on. Nothing: there is no limit.
+  std::optional<Nanoseconds> wait_until(std::optional<Nanoseconds> until) {
+    if (!until) return std::nullopt;
+    return std::clamp(*until - now(), Nanoseconds(0), kInterval);
+  }
+
+ private:
+  Nanoseconds now_ = monotonic_now();
+  RunningTime time_{kInterval, now_};
 };
 
 }  // namespace lockstep::host

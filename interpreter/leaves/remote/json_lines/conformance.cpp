@@ -8,6 +8,7 @@
 
 #include "base/core/element_types.h"
 #include "base/core/parameter_value.h"
+#include "base/core/running_time.h"
 #include "base/core/wording.h"
 #include "leaves/plugin/contract/described_types.h"
 #include "leaves/plugin/contract/descriptor.h"
@@ -257,7 +258,8 @@ class Examiner {
     trials_.clear();
     conversation_.begin_end();
     const auto limit = options_.halt_limit;
-    conversation_.await_end(limit ? std::optional(monotonic_now() + *limit) : std::nullopt);
+    RunningClock clock;
+    conversation_.await_end(clock, limit ? std::optional(clock.now() + *limit) : std::nullopt);
     conversation_.hurry_end();
     const std::string what = conversation_.end();
     if (!what.empty()) {

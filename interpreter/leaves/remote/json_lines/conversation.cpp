@@ -64,13 +64,13 @@ Result<std::string> Conversation::ask(std::string_view line, std::string_view wh
 
 // A line, or the problem that it has before it has done `what`.
 Result<std::string> Conversation::next_line(std::string_view what) {
-  const auto end = monotonic_now() + options_.hang_limit;
+  const auto until = end_of(hang_limit());
   const bool is_first = what == "listed its leaves";
   const char* const hint = is_first ? "its first line lists its leaves; is its output buffered?"
                                     : "is its output buffered?";
   while (!process_.lines.next(line_)) {
-    const auto left = hang_limit() ? std::optional(end - monotonic_now()) : std::nullopt;
-    const bool is_late = left && *left <= Nanoseconds(0);
+    const auto left = wait_until(until);
+    const bool is_late = left == Nanoseconds(0);
     if (is_late || process_.lines.is_too_long()) {
       return problem(is_late
                          ? fmt::format("prints nothing for {:g} s", to_seconds(options_.hang_limit))
@@ -118,12 +118,12 @@ void Conversation::send(std::uint32_t number, Asked asked, std::string_view line
     const Lock lock(mutex_);
     Leaf& leaf = leaves_[number - 1];
     if (asked == Asked::Pause) {
-      if (!leaf.owes_anything()) leaf.since = monotonic_now();
+      if (!leaf.owes_anything()) leaf.since = clock_.now();
       ++leaf.pauses;
     } else if (asked != Asked::Nothing) {
       leaf.owes_tick = leaf.asked == Asked::Tick;
       leaf.asked = asked;
-      leaf.since = monotonic_now();
+      leaf.since = clock_.now();
       if (asked == Asked::Tick) {
         leaf.news.status = 0;
         leaf.has_erred = false;
@@ -153,10 +153,12 @@ void Conversation::note_deaf() {
 // Its guardian tells of its end a moment after that of its output or input. Others wait for the
 // thread that listens, which therefore comes back for it.
 std::optional<std::string> Conversation::await_death() {
-  const Nanoseconds now = monotonic_now();
-  if (!dies_until_) dies_until_ = now + kToDie;
-  const bool waits = !is_listened_ && now < *dies_until_;
-  return process_.await_end(waits ? *dies_until_ - now : Nanoseconds(0));
+  if (!dies_until_) dies_until_ = now() + kToDie;
+  while (true) {
+    const auto left = is_listened_ ? Nanoseconds(0) : wait_until(dies_until_);
+    auto death = process_.await_end(left);
+    if (death || left == Nanoseconds(0)) return death;
+  }
 }
 
 // Only what takes no time is done under the lock, for which the tick thread would wait.
@@ -172,19 +174,33 @@ void Conversation::flush() {
 
 bool Conversation::await(std::uint32_t number, Asked asked, std::optional<Nanoseconds> patience) {
   if (!is_listened_) return await_here(number, asked, patience);
-  const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
+  const auto until = end_of(patience);
   Lock lock(mutex_);
   while (!is_gone() && leaves_[number - 1].owes(asked)) {
-    const Nanoseconds left = end - monotonic_now();
-    if (!patience) {
+    const auto left = clock_.wait_until(until);
+    if (!left) {
       lock.wait(answered_);
-    } else if (left > Nanoseconds(0)) {
-      lock.wait_for(answered_, left);
+    } else if (*left > Nanoseconds(0)) {
+      lock.wait_for(answered_, *left);
     } else {
       return false;
     }
   }
   return !is_gone();
+}
+
+Nanoseconds Conversation::now() {
+  const Lock lock(mutex_);
+  return clock_.now();
+}
+
+std::optional<Nanoseconds> Conversation::end_of(std::optional<Nanoseconds> patience) {
+  return patience ? std::optional(now() + *patience) : std::nullopt;
+}
+
+std::optional<Nanoseconds> Conversation::wait_until(std::optional<Nanoseconds> until) {
+  const Lock lock(mutex_);
+  return clock_.wait_until(until);
 }
 
 bool Conversation::owes(std::uint32_t leaf, Asked asked) {
@@ -195,14 +211,14 @@ bool Conversation::owes(std::uint32_t leaf, Asked asked) {
 // Nothing that comes after the answer is taken: when it comes is not the same in every run.
 bool Conversation::await_here(std::uint32_t leaf, Asked asked,
                               std::optional<Nanoseconds> patience) {
-  const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
+  const auto until = end_of(patience);
   while (!is_gone() && owes(leaf, asked)) {
     if (process_.lines.next(line_)) {
       take_line();
       continue;
     }
-    const auto left = patience ? std::optional(end - monotonic_now()) : std::nullopt;
-    if (left && *left <= Nanoseconds(0)) return false;
+    const auto left = wait_until(until);
+    if (left == Nanoseconds(0)) return false;
     read_more(left);
   }
   return !is_gone();
@@ -287,7 +303,7 @@ void Conversation::forget(std::uint32_t number) {
 
 void Conversation::forgive(std::uint32_t leaf) {
   const Lock lock(mutex_);
-  leaves_[leaf - 1].since = monotonic_now();
+  leaves_[leaf - 1].since = clock_.now();
 }
 
 std::string Conversation::why_gone() {
@@ -326,13 +342,17 @@ bool Conversation::listen() {
 
 std::optional<Nanoseconds> Conversation::deadline() {
   std::optional<Nanoseconds> first;
-  const auto add = [&](Nanoseconds it) { first = first ? std::min(*first, it) : it; };
+  const auto add = [&, now = monotonic_now()](Nanoseconds wait) {
+    first = std::min(first.value_or(now + wait), now + wait);
+  };
   const Lock lock(mutex_);
-  if (process_.has_unwritten()) add(monotonic_now() + kToFlush);
-  if (dies_until_) add(*dies_until_);
-  if (!options_.halt_limit) return first;
+  if (process_.has_unwritten()) add(kToFlush);
+  if (dies_until_) add(*clock_.wait_until(dies_until_));
   for (const Leaf& leaf : leaves_) {
-    if (leaf.asked == Asked::Halt) add(leaf.since + *options_.halt_limit);
+    if (!leaf.owes_anything() || leaf.caller == nullptr) continue;
+    const bool is_limited = leaf.asked == Asked::Halt && options_.halt_limit;
+    add(is_limited ? *clock_.wait_until(leaf.since + *options_.halt_limit)
+                   : RunningClock::kInterval);  // the thread that ticks looks at it
   }
   return first;
 }
@@ -342,10 +362,11 @@ bool Conversation::is_late(const Leaf& leaf, Nanoseconds now) const {
          now >= leaf.since + *options_.halt_limit;
 }
 
-void Conversation::check_deadline(Nanoseconds now) {
+void Conversation::check_deadline() {
   std::string late;
   {
     const Lock lock(mutex_);
+    const Nanoseconds now = clock_.now();
     for (const Leaf& leaf : leaves_) {
       if (late.empty() && is_late(leaf, now)) late = leaf.caller->who;
     }
@@ -494,17 +515,19 @@ void Conversation::begin_end() {
   if (!was_gone_) process_.close_input();
 }
 
-bool Conversation::await_end(std::optional<Nanoseconds> until) {
-  const auto left = [&] {
-    return until ? std::optional(std::max(*until - monotonic_now(), Nanoseconds(0))) : std::nullopt;
-  };
-  // One that floods its output always has more to say.
-  for (bool is_over = false; !is_over && !is_gone() && left() != Nanoseconds(0);) {
-    if (!process_.await_output(left())) break;
-    is_over = is_output_over();
-    while (!is_gone() && process_.lines.next(line_)) take_line();
+bool Conversation::await_end(RunningClock& clock, std::optional<Nanoseconds> until) {
+  bool is_over = false;  // one that floods its output always has more to say
+  while (!is_gone()) {
+    const auto left = clock.wait_until(until);
+    if (is_over || left == Nanoseconds(0)) {
+      if (process_.await_end(left)) return true;
+      if (left == Nanoseconds(0)) return false;
+    } else if (process_.await_output(left)) {
+      is_over = is_output_over();
+      while (!is_gone() && process_.lines.next(line_)) take_line();
+    }
   }
-  return is_gone() || process_.await_end(left()).has_value();
+  return true;
 }
 
 void Conversation::hurry_end() {

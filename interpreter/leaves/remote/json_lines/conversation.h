@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/core/problem.h"
+#include "base/core/running_time.h"
 #include "base/json/reader.h"
 #include "base/system/mutex.h"
 #include "leaves/remote/isolation_options.h"
@@ -55,8 +56,8 @@ class Conversation {
     std::string reason = {};                               // of the status
     lockstep_after_cut after_cut = LOCKSTEP_STARTS_AGAIN;  // of an answer to restore
     bool is_asked = false;                                 // it owes an answer
-    Nanoseconds since{0};                                  // when it was asked
-    Nanoseconds answered{0};                               // when the answer to tick came
+    Nanoseconds since{0};                                  // when it was asked, of now()
+    Nanoseconds answered{0};  // when the answer to tick came, on the clock of the machine
   };
   News take(std::uint32_t leaf);
   // Takes only the error of the news; the rest stays for the next tick.
@@ -72,6 +73,9 @@ class Conversation {
   // The time in which the leaf was held does not count as its own.
   void forgive(std::uint32_t leaf);
 
+  // For limits: the time in which lockstep itself was stopped does not pass.
+  Nanoseconds now();
+
   // Once true, the program has ended or is about to. `why` continues "its program ".
   bool is_gone() const { return gone_.load(); }
   std::string why_gone();
@@ -85,10 +89,10 @@ class Conversation {
   // The descriptor from which its answers are read; -1: there will be no more.
   int output() const { return has_said_all_ ? -1 : process_.output(); }
   // It has closed its output or input, and not ended in the time for that.
-  bool is_overdue() const { return dies_until_ && monotonic_now() >= *dies_until_; }
+  bool is_overdue() { return dies_until_ && now() >= *dies_until_; }
   // When the listener is to look at it again, whatever it says, and what it does then.
   std::optional<Nanoseconds> deadline();
-  void check_deadline(Nanoseconds now);
+  void check_deadline();
 
   // Waits for the end of the process of a program that is gone, when nobody else does.
   void bury();
@@ -96,8 +100,9 @@ class Conversation {
   ProgramProcess& process() { return process_; }
   // The end, when no listener reads any more. Closes its input, at which it is to end.
   void begin_end();
-  // Reads what it says until it has ended, or until then; nothing: without end. False: it has not.
-  bool await_end(std::optional<Nanoseconds> until);
+  // Reads what it says until it has ended, or until then on this clock; nothing: without end.
+  // False: it has not.
+  bool await_end(RunningClock& clock, std::optional<Nanoseconds> until);
   // Ends it otherwise, if it has not: does not wait.
   void hurry_end();
   // Waits for that. "", or what it took.
@@ -142,6 +147,8 @@ class Conversation {
   void end_late(std::string_view leaf);
   bool ends_softly();
   bool is_late(const Leaf& leaf, Nanoseconds now) const;
+  std::optional<Nanoseconds> end_of(std::optional<Nanoseconds> patience);
+  std::optional<Nanoseconds> wait_until(std::optional<Nanoseconds> until);
   std::string blamed();
 
   const IsolationOptions& options_;
@@ -159,6 +166,7 @@ class Conversation {
   Nanoseconds closed_{0};                       // when its input was
 
   Mutex mutex_;
+  RunningClock clock_ LOCKSTEP_GUARDED_BY(mutex_);
   std::condition_variable answered_;
   std::vector<Leaf> leaves_ LOCKSTEP_GUARDED_BY(mutex_);
   const lockstep_caller* run_ LOCKSTEP_GUARDED_BY(mutex_) = nullptr;

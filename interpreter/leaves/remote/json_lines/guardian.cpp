@@ -8,13 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 
-#include "base/core/clock.h"
+#include "base/core/running_time.h"
 #include "base/system/pipe.h"
 #include "base/system/process_end.h"
 #include "leaves/remote/json_lines/orphans.h"
@@ -109,7 +108,7 @@ class Guard {
         tell_end();
         ends[2] = {-1, 0, 0};
       }
-      if (deadline_ && monotonic_now() >= *deadline_) {
+      if (clock_.wait_until(deadline_) == Nanoseconds(0)) {
         ::kill(-program_, SIGKILL);
         deadline_.reset();
       }
@@ -117,10 +116,10 @@ class Guard {
   }
 
  private:
-  int patience() const {
-    if (!deadline_) return -1;
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(*deadline_ - monotonic_now());
-    return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 1'000'000));
+  int patience() {
+    const auto left = clock_.wait_until(deadline_);
+    return left ? static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*left).count())
+                : -1;
   }
 
   // False: the host has nothing more to say.
@@ -131,7 +130,7 @@ class Guard {
     if (size != sizeof order) return false;
     kill(-program_, SIGTERM);
     kill(-program_, SIGCONT);
-    if (order.nanoseconds >= 0) deadline_ = monotonic_now() + Nanoseconds(order.nanoseconds);
+    if (order.nanoseconds >= 0) deadline_ = clock_.now() + Nanoseconds(order.nanoseconds);
     return true;
   }
 
@@ -145,6 +144,7 @@ class Guard {
 
   pid_t program_;
   ProcessEnd end_;
+  RunningClock clock_;
   std::optional<Nanoseconds> deadline_;
 };
 

@@ -91,7 +91,7 @@ void Listener::listen() {
       const bool speaks =
           descriptors[2 * i + 1].revents != 0 || descriptors[2 * i + 2].revents != 0;
       if (speaks || known[i]->is_overdue()) known[i]->listen();
-      known[i]->check_deadline(monotonic_now());
+      known[i]->check_deadline();
     }
   }
 }

@@ -158,7 +158,7 @@ lockstep_status ProgramLeaf::tick_condition() {
   bool is_open = news.is_asked;
   if (!keep_result(news)) return LOCKSTEP_RUNNING;
   if (!is_open) {
-    news.since = monotonic_now();
+    news.since = conversation_.now();
     is_open = !ask_and_await_answer();
     if (has_error() || !keep_result(conversation_.take(number_))) return LOCKSTEP_RUNNING;
   }
@@ -231,7 +231,7 @@ void ProgramLeaf::set_ports(std::string line) {
 
 void ProgramLeaf::end_if_hanging(Nanoseconds since) {
   const auto limit = conversation_.hang_limit();
-  if (limit && monotonic_now() - since > *limit) {
+  if (limit && conversation_.now() - since > *limit) {
     conversation_.give_up(fmt::format("did not answer '{}' for {:g} s; it was killed", caller_.who,
                                       to_seconds(*limit)));
   }
@@ -239,7 +239,8 @@ void ProgramLeaf::end_if_hanging(Nanoseconds since) {
 
 // Nothing is wrong yet: the leaf has the progress that it had.
 void ProgramLeaf::note_late(Nanoseconds since) {
-  if (conversation_.is_gone() || monotonic_now() - since <= kLate || told_late_ == since) return;
+  if (conversation_.is_gone() || told_late_ == since || conversation_.now() - since <= kLate)
+    return;
   told_late_ = since;
   host_table().log(&caller_, LOCKSTEP_LOG_WARNING,
                    fmt::format("its program is late: no answer for {:g} s; until then it stays "
@@ -259,7 +260,7 @@ void ProgramLeaf::halt() {
   if (listener_ != nullptr && !caller_.run->node_context->in_last_halt()) return;
   const auto limit = conversation_.options().halt_limit;
   if (!conversation_.await(number_, Asked::Halt, limit)) {
-    conversation_.check_deadline(monotonic_now());
+    conversation_.check_deadline();
     fail_if_gone();
   } else if (const auto news = conversation_.take(number_); !news.error.empty()) {
     fail(news.error);

@@ -99,7 +99,7 @@ void ProgramProcess::bury() {
 }
 
 ProgramProcess::Written ProgramProcess::write(std::string_view text) {
-  const Nanoseconds now = monotonic_now();
+  const Nanoseconds now = clock_.now();
   if (unwritten_.empty()) taken_ = now;
   unwritten_ += text;
   std::size_t done = 0;

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/core/clock.h"
+#include "base/core/running_time.h"
 #include "base/system/file_descriptor.h"
 #include "base/system/mutex.h"
 #include "leaves/remote/child_process.h"
@@ -66,6 +66,7 @@ class ProgramProcess {
   ChildProcess guardian_;
   FileDescriptor control_, input_, output_;
   std::string unwritten_;
+  RunningClock clock_;
   Nanoseconds taken_{0};  // when there was nothing unwritten, or the program took some of it
   Mutex mutex_;  // for signals from any thread: the group is there until the end of control_
   pid_t group_ LOCKSTEP_GUARDED_BY(mutex_) = -1;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/core/end_budget.h"
+#include "base/core/running_time.h"
 #include "leaves/plugin/contract/host.h"
 #include "leaves/remote/json_lines/listener.h"
 #include "leaves/remote/json_lines/program_leaf.h"
@@ -22,9 +23,10 @@ class ProgramRun final : public RemoteRun {
   }
   ~ProgramRun() override {
     begin_end();
-    const auto until = end_of_patience();
+    RunningClock clock;
+    const auto until = end_of_patience(clock);
     bool is_in_time = true;
-    for (const auto& conversation : conversations_) is_in_time &= conversation->await_end(until);
+    for (const auto& it : conversations_) is_in_time &= it->await_end(clock, until);
     for (const auto& conversation : conversations_) conversation->hurry_end();
     EndBudget* const budget = caller_.time->end_budget;
     if (!is_in_time && budget != nullptr) {
@@ -74,12 +76,12 @@ class ProgramRun final : public RemoteRun {
   }
 
   // Nothing: there is no end of it.
-  std::optional<Nanoseconds> end_of_patience() const {
+  std::optional<Nanoseconds> end_of_patience(RunningClock& clock) const {
     if (conversations_.empty()) return std::nullopt;
     const EndBudget* const budget = caller_.time->end_budget;
     const auto patience =
         budget == nullptr ? conversations_[0]->options().halt_limit : budget->rest();
-    return patience ? std::optional(monotonic_now() + *patience) : std::nullopt;
+    return patience ? std::optional(clock.now() + *patience) : std::nullopt;
   }
 
   // The conversation of all leaves that may share one.
