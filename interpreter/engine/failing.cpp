@@ -23,6 +23,7 @@ bool Ticker::take_failed(NodeIndex node) {
 }
 
 void Ticker::report_fault(NodeIndex leaf, std::string message) {
+  watch_held(leaf);  // keeps its progress until its Failure
   set_fault_around(leaf, status(leaf) == Status::Running, std::move(message));
 }
 

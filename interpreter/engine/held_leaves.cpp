@@ -28,7 +28,8 @@ void HeldLeaves::look(NodeContext& context) {
 // Nothing more is to be found.
 bool HeldLeaves::is_done(NodeContext& context, Held& held) {
   LeafSlot& leaf = context.leaf(held.node);
-  if (!context.held(held.node) || leaf.went_on || leaf.failed()) return true;
+  if (leaf.failed()) return context.status(held.node) != Status::Running;  // see last_progress
+  if (!context.held(held.node) || leaf.went_on) return true;
   const auto now = look_at_progress(context, held.node);
   if (!now) return true;
   if (*now <= held.most + kProgressEpsilon) return false;

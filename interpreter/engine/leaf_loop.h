@@ -82,10 +82,11 @@ class LeafLoop {
   static bool goes_on(const NodeContext& context) {
     return context.in_line_ != nullptr && (context.timer_ != nullptr) == kTimed;
   }
-  // One that has failed as a program is not held: its progress is 0.
+  // One that has failed as a program is not held.
   template <class While>
-  [[gnu::always_inline]] static bool stays_held(Activity before, While& chosen) {
-    return While::kHolds && before == Activity::Paused && !chosen.next();
+  [[gnu::always_inline]] static bool stays_held(Activity before, const LeafSlot& leaf,
+                                                While& chosen) {
+    return While::kHolds && before == Activity::Paused && !leaf.failed() && !chosen.next();
   }
   // From 0 to 1, but not -0: the bits of such numbers are ordered as the numbers are.
   static bool is_in_range(double progress) {
@@ -128,7 +129,7 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     if constexpr (!kRuns) {
       if (!is_ready(*activity, *leaf)) break;
     } else if (*activity != Activity::Running) {
-      if (stays_held(*activity, chosen)) continue;
+      if (stays_held(*activity, *leaf, chosen)) continue;
       break;
     } else if (!chosen.next() || leaf->is_unusual()) {
       break;

@@ -286,6 +286,20 @@ TEST_CASE("a ticket: the leaves of the run are watched with the leaf model of th
   CHECK(both.code == 2);
 }
 
+TEST_CASE("a leaf that breaks its model has not fallen back: its Failure changes no measure") {
+  for (const std::string words : {"R0.2 R0.2 R0.2 S", "R0.3 R0.3 R0.3 S"}) {  // ticked, held
+    WatchedFiles files;
+    files.play("a", words);
+    files.play("b", "R0.1 R0.15 R0.2 S");
+    const Outcome outcome =
+        files.run(R"(<leaf path="*/a" ticks="1"/>)", {"--on-fault", "fail", "--max-ticks", "9"});
+    INFO(words << '\n' << outcome.out << outcome.err);
+    CHECK(contains(outcome.out, "takes more than 1 tick"));
+    CHECK(contains(outcome.out, "(bound "));
+    CHECK_FALSE(contains(outcome.out, "fell"));
+  }
+}
+
 // The leaves of these runs do by chance what their models allow: it is the judge of what is
 // watched.
 TEST_CASE("leaves that do by chance what a model allows never break it") {

@@ -7,12 +7,14 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <deque>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
 #include <thread>
 #include <utility>
 
+#include "hostile_tree.h"
 #include "support/program.h"
 
 using namespace lockstep::host::test;
@@ -374,6 +376,44 @@ TEST_CASE("a held program that dies is a failure of its leaf, if the run goes on
   CHECK(outcome.code == 1);
   CHECK(contains(outcome.err, "its program ended with exit code 3"));
   CHECK(contains(outcome.err, "arm: halted"));
+}
+
+TEST_CASE("a leaf that dies while it is held has not fallen back: its Failure changes no measure") {
+  const TemporaryDirectory directory;
+  std::filesystem::copy_file(LOCKSTEP_BINARY_DIR "/plugins/motion.so", directory.path("motion.so"));
+  const std::string advance = R"(<Advance name="bad" step="0.6"/>)";
+  const std::string held = R"(<Held name="bad" how="still"/>)";
+  const std::string motion = R"(<plugin name="motion" isolate="true"/>)";
+  const std::string program = R"(<plugin name="held" program="held.py")";
+  struct Case {
+    std::string plugins, leaf;
+  };
+  const Case cases[] = {{motion, advance},
+                        {motion, "<ForceFailure>" + advance + "</ForceFailure>"},
+                        {program + "/>", held},
+                        {program + R"( hold="signal"/>)", held}};
+  for (const Case& row : cases) {
+    ProgramRun it(R"(<root lockstep="1">)" + row.plugins +
+                      R"(<plugin name="steady" program="steady.py"/>)"
+                      R"(<BehaviorTree ID="Main"><Fallback><ParallelAbsolute barriers="0.5">)" +
+                      row.leaf +
+                      R"(<Steady/></ParallelAbsolute><AlwaysSuccess/></Fallback>)"
+                      R"(</BehaviorTree></root>)",
+                  {"--timeout", "30", "--on-fault", "fail", "--plugin-path", directory.path("")});
+    it.tick_at_most("100000");
+    Process process(it.call);
+    REQUIRE(process.wait_for(": waits for Steady at barrier"));
+    const bool is_isolated = row.plugins == motion;
+    const pid_t held_one =
+        is_isolated ? processes_with(directory.path("motion.so")).back() : it.processes().front();
+    kill(held_one, SIGKILL);
+    const Outcome outcome = process.finish();
+    INFO(row.plugins << row.leaf << "\n" << outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, "killed by SIGKILL"));
+    CHECK(contains(outcome.out, "(bound "));
+    CHECK_FALSE(contains(outcome.out, "fell"));
+  }
 }
 
 TEST_CASE("a program that has died is reaped while the run goes on") {

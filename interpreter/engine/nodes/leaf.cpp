@@ -9,6 +9,7 @@
 #include "base/core/plugin_exception.h"
 #include "base/core/progress.h"
 #include "engine/cut.h"
+#include "engine/held_leaves.h"
 #include "engine/leaf_call.h"
 #include "engine/node_kind.h"
 #include "engine/nodes/fold.h"
@@ -293,7 +294,7 @@ double corrected(NodeContext& context, NodeIndex self, LeafSlot& leaf, double re
 
 double progress_of_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (leaf.is_out()) return 0.0;
+  if (leaf.is_out()) return LeafCall::last_progress(context, self);
   double reported = 0.0;
   if (leaf.kept_progress != nullptr) {
     reported = leaf.read_progress();
@@ -348,6 +349,15 @@ double LeafCall::spoiled_progress(NodeContext& context, NodeIndex node, double r
   LeafSlot& leaf = context.leaf(node);
   if (leaf.failed() || context.faulted()) reported = 0.0;  // as after an exception
   return corrected(context, node, leaf, reported);
+}
+
+[[gnu::cold]] double LeafCall::last_progress(const NodeContext& context, NodeIndex node) {
+  double last = 0.0;
+  HeldLeaves::visit(context.held_leaves_, [&](const auto& all, const auto& /*went_on*/) {
+    const auto it = std::ranges::find(all, node, &HeldLeaves::Held::node);
+    if (it != all.end()) last = it->most;
+  });
+  return last;
 }
 
 [[gnu::cold]] void LeafCall::note_exception(NodeContext& context, const LeafSlot& leaf) {
