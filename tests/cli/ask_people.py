@@ -148,6 +148,66 @@ def test_an_answer_to_a_held_question_that_is_halted_was_not_taken(directory):
     assert run.end()[0] == 143
 
 
+class HeldQuestion:
+    "A run that is kept, in which a question is held until another child is at 0.5. The run is cut when all is in its files."
+
+    def __init__(self, directory, other_child):
+        self.directory = directory
+        self.tree, self.recording, self.checkpoint = (os.path.join(directory, "cut." + it) for it in ("xml", "jsonl", "checkpoint"))
+        with open(self.tree, "w") as file:
+            file.write(f"""<root lockstep="1"><BehaviorTree ID="Main"><ParallelAbsolute barriers="0.5"><Sequence memory="true">
+<AlwaysSuccess/><Ask name="q" text="held?" options="a;b"/></Sequence>{other_child}</ParallelAbsolute></BehaviorTree></root>""")
+        self.begin()
+        self.run.wait_for(r"q asks: held\? \(a, b\)")
+
+    def begin(self):
+        self.run = Terminal(self.directory, self.tree, "--checkpoint", self.checkpoint, "--resume", "--record", self.recording)
+
+    def kept_ticks(self):
+        return json.loads(self.run.other("checkpoint", self.checkpoint, "--json").stdout)["ticks"]
+
+    def wait_for_tick(self, tick):
+        while self.kept_ticks() <= tick:
+            assert self.run.run.poll() is None
+
+    def answered_at(self):
+        with open(self.recording) as file:
+            return next((json.loads(line)["tick"] for line in file if '"answers":' in line), None)
+
+    def cut_and_resume(self):
+        self.run.run.kill()
+        self.run.end()
+        self.begin()
+        self.run.wait_for("resumed after")
+
+
+def test_a_question_that_has_its_answer_is_not_asked_again_after_a_cut(directory):
+    held = HeldQuestion(directory, "<AlwaysRunning/>")
+    held.run.type("b")
+    while (tick := held.answered_at()) is None:
+        assert held.run.run.poll() is None
+    held.wait_for_tick(tick + 1)
+    held.cut_and_resume()
+    held.wait_for_tick(held.kept_ticks() + 2)
+    listed = held.run.other("answer")
+    assert listed.returncode == 0 and listed.stdout == "", listed
+    held.run.run.send_signal(signal.SIGTERM)
+    assert "asks" not in held.run.wait_for("(?s)(.*)run ends").group(1)
+    assert held.run.end()[0] == 143
+
+
+def test_a_question_that_is_held_at_a_cut_is_asked_again_with_its_text(directory):
+    held = HeldQuestion(directory, '<Wait seconds="2"/>')
+    held.wait_for_tick(1)
+    held.cut_and_resume()
+    asked = held.run.wait_for(r"q asks: (.*)\r\n").group(1)
+    assert asked == "held? (a, b)", asked
+    held.run.wait_for(r"\(1 to 2\) ")
+    held.run.type("a")
+    held.run.wait_for("run ends: success")
+    assert held.run.end()[0] == 0
+
+
 def test_a_run_with_a_monitor_is_reached_too(directory):
     run = Terminal(directory, os.path.join(TREES, "ask.xml"), "--monitor", "127.0.0.1:0", "--monitor-linger", "0")
     run.wait_for("where asks")

@@ -36,7 +36,9 @@ void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
     const bool asks = moment.status(node) == Status::Running;
     const Lock lock(mutex_);  // nobody holds it for long
     const auto it = std::ranges::find(now_, node, &OpenQuestion::node);
-    if (it == now_.end() ? !asks : !is_over(moment, *it)) continue;
+    // One that was held at a cut has no text until its next tick. It may also have its answer.
+    const bool begins = asks && moment.state(node).ticked();
+    if (it == now_.end() ? !begins : !is_over(moment, *it)) continue;
     is_changed = true;
     if (it != now_.end()) {
       end(moment, *it);
