@@ -229,7 +229,7 @@ class Fault(Action):
 
 
 class Form(Action):
-    "Has a port with what describe was given."
+    "Has a port with what describe was given. Its constants are there from the beginning."
     more_ports = ["x.*"]
     flag: Fixed[bool] = False
     whole: Fixed[int] = 3
@@ -248,11 +248,14 @@ class Form(Action):
             raise ValueError("cannot be described")
         return {"x.given": (str, Port(repr(given).encode().hex())), "x.real": (float, 2), "x.out": Output[list[float]]}
 
+    def __init__(self):
+        self.made_with = repr({name: getattr(self, name) for name in TYPES})
+
     def tick(self):
-        given = {name: getattr(self, name) for name in TYPES}
+        given = repr({name: getattr(self, name) for name in TYPES})
         self.log(bytes.fromhex(self["x.given"]).decode())
         self["x.out"] = [self["x.real"]]
-        return bytes.fromhex(self["x.given"]).decode() == repr(given)
+        return bytes.fromhex(self["x.given"]).decode() == given == self.made_with
 
 
 serve()

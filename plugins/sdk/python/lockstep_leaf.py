@@ -443,6 +443,7 @@ class _Server:
         leaf = _new(_classes[request["type"]], number, request["seed"], request.get("fixed", {}),
                     period=float(request["period"]), **{name: request[name] for name in ("name", "path", "clock")})
         leaf._unbound = request.get("unbound", ())
+        self.update(leaf, request.get("fixed", {}))
         self.leaves[number] = leaf
         leaf.__init__()
         say(leaf=number, done=True)
@@ -450,7 +451,7 @@ class _Server:
     def begin(self, leaf, request):
         self.broken.discard(leaf._number)
         leaf._values, leaf._kept = {}, None
-        self.update(leaf, request)
+        self.update(leaf, request.get("ports", {}))
 
     def start(self, leaf, request):
         self.begin(leaf, request)
@@ -476,7 +477,7 @@ class _Server:
         return {"kept": kept}
 
     def tick(self, leaf, request):
-        self.update(leaf, request)
+        self.update(leaf, request.get("ports", {}))
         status, reason, progress, values = _tick(leaf)
         answer = {"leaf": leaf._number, "status": status}
         if reason:
@@ -511,8 +512,7 @@ class _Server:
         del self.leaves[leaf._number]
 
     @staticmethod
-    def update(leaf, request):
-        ports = request.get("ports", {})
+    def update(leaf, ports):
         own = leaf._own_ports
         leaf._values.update({name: _received(own[name], value) for name, value in ports.items() if name in own})
 
