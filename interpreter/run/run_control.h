@@ -73,6 +73,8 @@ class RunControl {
   void count_tick(Ticker& ticker);
   // The run stands, or goes on: for state(). Until then a pause is only on its way.
   void report_standing(bool stands);
+  // The run ends: it does not wait for anybody, whatever has paused it.
+  void end() { is_paused_ = false, is_attended_ = true; }
   // Returns when there are orders, after `longest`, or when a signal comes.
   void wait(Nanoseconds longest);
 

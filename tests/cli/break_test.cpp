@@ -63,6 +63,23 @@ TEST_CASE("breakpoints of results and barriers, and those that are typed") {
   CHECK(contains(quit.out, " after 1 tick"));
 }
 
+TEST_CASE("a run that ends where it is paused, or would pause, tells no pause for that") {
+  const TemporaryDirectory directory = with_carrying_tree();
+  const auto pauses = [&](const std::string& lines, const std::string& options) {
+    const Outcome run = typed(directory, lines, "--break arm " + options);
+    INFO(run.err);
+    CHECK_FALSE(contains(run.err, "the run continues"));
+    std::size_t count = 0;
+    for (auto at = run.err.find("paused "); at != run.err.npos;
+         at = run.err.find("paused ", at + 1))
+      ++count;
+    return count;
+  };
+  CHECK(pauses("q\\n", "") == 1);
+  CHECK(pauses("s\\nq\\n", "") == 2);
+  CHECK(pauses("c\\n", "--max-ticks 1") == 0);
+}
+
 TEST_CASE("run --break-if pauses a run after each tick in which a condition becomes true") {
   const TemporaryDirectory directory = with_carrying_tree();
   const Outcome run = typed(directory, "s\\nset force 7\\nc\\nc\\nc\\n",
