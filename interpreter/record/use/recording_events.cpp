@@ -98,11 +98,12 @@ class Events {
 
  private:
   // A node asks when its activation begins, and anew with another text. A reason is told only where
-  // it differs from the line before: a question that is asked again may have none.
+  // it differs from the line before, and after a cut: a question that is asked again may have none.
   void add_questions(const RecordedTick& tick, bool is_first) {
     for (Question& it : questions_) {
       const auto reason = std::ranges::find(tick.reasons, it.node, &RecordedReason::node);
-      if (reason != tick.reasons.end()) it.is_told = false, it.text = reason->text;
+      if (reason != tick.reasons.end() && std::exchange(it.text, reason->text) != reason->text)
+        it.is_told = false;
       if (now_[it.node].status() != Status::Running) continue;
       if (!std::exchange(it.is_told, true) && !is_first)
         add(EventKind::Ask, header_.nodes[it.node].path, it.text);
