@@ -14,7 +14,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -98,23 +97,10 @@ struct MomentsView {
       for (const MomentChange& it : changes_of(i)) column[it.node] = it.after;
     }
   }
-  // The last moment that ticked the node; none: it was ticked in no moment but the first.
-  std::optional<std::size_t> last_ticked(NodeIndex node) const {
-    std::optional<std::size_t> last;
-    NodeState state = first.empty() ? NodeState{} : first[node];
-    for (std::size_t i = 0; i < moments.size(); ++i) {
-      if (state.ticked() && (i > 0 || moments[i].times > 1)) last = i;
-      for (const MomentChange& it : changes_of(i)) {
-        if (it.node == node) state = it.after;
-      }
-    }
-    return last;
-  }
-  // The state after the moment before this one: of several equal ones, the last.
-  void before(std::size_t moment, std::vector<NodeState>& column) const {
-    const std::size_t last = moments[moment].times > 1 ? moment : moment - 1;
+  // The state after this moment.
+  void after(std::size_t moment, std::vector<NodeState>& column) const {
     column.assign(first.begin(), first.end());
-    for (std::size_t i = 0; i < last; ++i) {
+    for (std::size_t i = 0; i < moment; ++i) {
       for (const MomentChange& it : changes_of(i)) column[it.node] = it.after;
     }
   }

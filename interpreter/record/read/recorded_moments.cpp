@@ -122,11 +122,38 @@ void RecordedMoments::read_ended(const RecordedTick& tick) {
   }
 }
 
-// The columns are still those of the tick before. A node that was ticked in several moments has
-// asked its children in each of them, the last time after the moment before.
+// The moment after which a node asked its children for the last time in a tick; none: it asked them
+// before the first one. It has asked anew if a child is ticked that had a result in this tick: what
+// it does below itself, such as a reset, is in several moments only while it is Running.
+std::optional<std::size_t> RecordedMoments::asked_after(const Keeper& keeper,
+                                                        const MomentsView& moments) {
+  std::optional<std::size_t> last;
+  std::vector<bool> has_result(keeper.children.size());
+  std::size_t number = 0;
+  moments.each(within_, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
+    const std::size_t moment = number++;
+    if (!now[keeper.node].ticked()) return;
+    bool asks = false;
+    for (std::size_t child = 0; child < has_result.size(); ++child)
+      asks |= has_result[child] && now[keeper.children[child]].ticked();
+    if (asks) {
+      last = moment - 1;
+      has_result.assign(has_result.size(), false);
+    }
+    if (it.times > 1) last = moment;
+    for (std::size_t child = 0; child < has_result.size(); ++child) {
+      const NodeState state = now[keeper.children[child]];
+      has_result[child] = has_result[child] || (state.ticked() && has_ended(state.status()));
+    }
+  });
+  return last;
+}
+
+// The columns are still those of the tick before.
 void RecordedMoments::read_used(Keeper& keeper, const RecordedTick& tick) {
+  const auto last = tick.moments.empty() ? std::nullopt : asked_after(keeper, tick.moments);
   within_.clear();
-  if (const auto last = tick.moments.last_ticked(keeper.node)) tick.moments.before(*last, within_);
+  if (last) tick.moments.after(*last, within_);
   for (std::size_t child = 0; child < keeper.children.size(); ++child) {
     const NodeIndex node = keeper.children[child];
     const RecordedState& state = tick.nodes[node];

@@ -1,6 +1,8 @@
 // The Moments of a recording: each is what run/live_moments.h gave when that tick was recorded.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "record/recording.h"
@@ -30,6 +32,7 @@ class RecordedMoments {
     std::vector<double> used = {};
   };
   void add(const RecordingHeader& header, NodeIndex node);
+  std::optional<std::size_t> asked_after(const Keeper& keeper, const MomentsView& moments);
   void read_used(Keeper& keeper, const RecordedTick& tick);
   double in_plain_parallel(const Keeper& keeper, std::size_t child,
                            const RecordedState& state) const;
