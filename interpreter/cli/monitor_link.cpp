@@ -34,8 +34,10 @@ void MonitorLink::tell(const std::string& link, bool opens) {
   registration_.set_link(link);
   if (!registration_.is_listed()) {
     messages().say(
-        "lockstep: warning: other commands do not find this run: its file in XDG_RUNTIME_DIR or /tmp "
-        "cannot be written, or belongs to a run with the same process number in another container\n");
+        "lockstep: warning: other commands do not find this run: its file in XDG_RUNTIME_DIR or "
+        "/tmp "
+        "cannot be written, or belongs to a run with the same process number in another "
+        "container\n");
   }
   messages().say("monitor: " + link + "\n");
   if (opens && !open_in_browser(link)) {

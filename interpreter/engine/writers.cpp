@@ -33,7 +33,8 @@ class Writers {
   void add_ports(NodeIndex node, const NodeType& type, std::uint32_t first) {
     for (std::size_t port = 0; port < type.parameters.size(); ++port) {
       const std::uint32_t slot = tree_.ports[first + port].slot;
-      if (type.parameters[port].writes() && slot != PortBinding::kUnbound) of_slot_[slot].push_back(node);
+      if (type.parameters[port].writes() && slot != PortBinding::kUnbound)
+        of_slot_[slot].push_back(node);
     }
   }
 

@@ -55,7 +55,8 @@ class WordMaker {
       for (const NodeIndex node : writers_of[static_cast<std::size_t>(slot - tree.slots.begin())]) {
         const auto at = recorded.find(tree.path(node));
         if (at == recorded.end()) continue;
-        if (names_writers && std::ranges::find(key.writers, at->second) == key.writers.end()) continue;
+        if (names_writers && std::ranges::find(key.writers, at->second) == key.writers.end())
+          continue;
         if (!names_writers) of_key.push_back(at->second);
         by_script.push_back({at->second, node, is_script(tree, node)});
       }

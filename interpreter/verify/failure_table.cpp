@@ -119,7 +119,8 @@ class FailureTable {
     constexpr int kOfSearch = 3, kParts = 5;
     SearchLimits limits = options_.limits;
     limits.symmetry = false;  // each leaf is the one that it is
-    if (until) limits.time = std::max(Nanoseconds(0), *until - monotonic_now()) * kOfSearch / kParts;
+    if (until)
+      limits.time = std::max(Nanoseconds(0), *until - monotonic_now()) * kOfSearch / kParts;
     return limits;
   }
 
@@ -129,8 +130,7 @@ class FailureTable {
     models.accepted.clear();
     const SearchResult found = search(tree_, models, properties_, options_.rate, limits(until));
     const Verdict verdict =
-        make_verdict(tree_, models, properties_, found,
-                     {.rate = options_.rate, .until = until});
+        make_verdict(tree_, models, properties_, found, {.rate = options_.rate, .until = until});
     FailureRow row{std::move(cases)};
     row.is_complete = found.is_complete();
     row.faults = !found.faults.empty();

@@ -52,8 +52,8 @@ struct FailureRow {
 
 struct FailureTableOptions {
   double rate = 10;
-  bool pairs = false;        // also each two failures of different leaves
-  SearchLimits limits = {};  // of each row
+  bool pairs = false;                     // also each two failures of different leaves
+  SearchLimits limits = {};               // of each row
   std::optional<Nanoseconds> until = {};  // of monotonic_now: of all rows
 };
 

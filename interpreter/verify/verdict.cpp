@@ -24,8 +24,8 @@ namespace {
 // The names of findings, or how they begin: "starvation/T/Parallel/Advance".
 constexpr std::string_view kTrap = "trap", kTrapAfterCut = "trap-after-cut", kCycle = "cycle",
                            kStarvation = "starvation/", kNeverTicked = "never-ticked/",
-                           kFault = "fault/", kOrder = "order/",
-                           kBarrierPassed = "barrier-passed/", kDoneTwice = "done-twice/";
+                           kFault = "fault/", kOrder = "order/", kBarrierPassed = "barrier-passed/",
+                           kDoneTwice = "done-twice/";
 
 constexpr std::size_t kMostNames = 6;
 
@@ -539,7 +539,8 @@ class VerdictMaker {
     }
     if (found_.broken) {
       verdict_.findings.push_back(
-          {.name = std::string(kOrder) + found_.broken->first.substr(0, found_.broken->first.find(':')),
+          {.name =
+               std::string(kOrder) + found_.broken->first.substr(0, found_.broken->first.find(':')),
            .message = "an order of calls that the contract forbids, which is a bug in lockstep: " +
                       found_.broken->first,
            .run = run_to(found_.broken->second)});

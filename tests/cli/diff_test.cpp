@@ -327,11 +327,14 @@ TEST_CASE("diff: what the model of a SubTree adds is a part of the tree") {
   const auto tree = [&](const std::string& name, const std::string& attributes,
                         const std::string& port) {
     return directory.file(
-        name, "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Sequence>"
-              "<SubTree ID=\"S\"" + attributes + "/><Sleep msec=\"1\"/></Sequence></BehaviorTree>"
-              "<BehaviorTree ID=\"S\"><ScriptCondition code=\"go == 'yes'\"/></BehaviorTree>"
-              "<TreeNodesModel><SubTree ID=\"S\"><input_port name=\"go\"" + port +
-              "/></SubTree></TreeNodesModel></root>");
+        name,
+        "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Sequence>"
+        "<SubTree ID=\"S\"" +
+            attributes +
+            "/><Sleep msec=\"1\"/></Sequence></BehaviorTree>"
+            "<BehaviorTree ID=\"S\"><ScriptCondition code=\"go == 'yes'\"/></BehaviorTree>"
+            "<TreeNodesModel><SubTree ID=\"S\"><input_port name=\"go\"" +
+            port + "/></SubTree></TreeNodesModel></root>");
   };
   const std::string yes = tree("yes.xml", "", " default=\"yes\"");
   const Outcome outcome = run_lockstep({"diff", yes, tree("no.xml", "", " default=\"no\"")});

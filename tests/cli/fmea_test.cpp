@@ -195,8 +195,9 @@ TEST_CASE("the table of failures has each leaf that is halted, also late and at 
   const TemporaryDirectory directory;
   const auto halted = [&](const std::string& nodes, const std::string& leaf,
                           const std::string& failure) {
-    const std::string tree = directory.file(
-        "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"T\">" + nodes + "</BehaviorTree></root>");
+    const std::string tree =
+        directory.file("tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"T\">" + nodes +
+                                       "</BehaviorTree></root>");
     const Outcome outcome = run_lockstep({"verify", tree, "--mock", "--fmea", "--format", "json"});
     for (const auto& row : parse_json(outcome.out)) {
       const auto& it = row["failures"][0];

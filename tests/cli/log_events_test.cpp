@@ -146,8 +146,8 @@ TEST_CASE("log events: each question of an Ask, also one that is asked again wit
       "<Ask name=\"a\" text=\"Is it, {on}?\" timeout=\"0.2\" default=\"yes\"/></Repeat>"
       "</BehaviorTree></root>");
   const std::string file = directory.path("run.jsonl");
-  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--record", file, "--set",
-                        "on=now"})
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--record", file,
+                        "--set", "on=now"})
               .code == 0);
   const Outcome outcome =
       run_lockstep({"log", "events", file, "--event", "ask", "--format", "csv"});

@@ -203,7 +203,8 @@ TEST_CASE("moments: the lines of a run tell that a leaf succeeded before it was 
   CHECK(!contains(run.err + run.out, "a: halted"));
 }
 
-TEST_CASE("moments: log measure leaves out the children that the last decision of a tick left out") {
+TEST_CASE(
+    "moments: log measure leaves out the children that the last decision of a tick left out") {
   // `a` is skipped in a round that ends within a tick, and then runs; or runs not yet.
   const std::string skipped_before =
       R"(<AsyncSequence name="a" _skipIf="n == 0"><AlwaysSuccess/><Advance step="0.04"/></AsyncSequence>
@@ -219,8 +220,8 @@ TEST_CASE("moments: log measure leaves out the children that the last decision o
         <Repeat num_cycles="3"><ParallelRelative name="p" delta="1">)" +
             children + "</ParallelRelative></Repeat></Sequence></BehaviorTree></root>");
     const std::string file = directory.path("run.jsonl");
-    const Outcome run = run_lockstep({"run", tree, "--plugin", "motion", "--clock", "virtual",
-                                      "--json", "--record", file});
+    const Outcome run = run_lockstep(
+        {"run", tree, "--plugin", "motion", "--clock", "virtual", "--json", "--record", file});
     REQUIRE(run.code == 0);
     const json node = json::parse(run.out)["synchronized_nodes"][0];
     const Outcome measured = run_lockstep({"log", "measure", file, "--measure", "progress-distance",

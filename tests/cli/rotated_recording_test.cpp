@@ -155,7 +155,8 @@ TEST_CASE("run --record-keep keeps the last parts, and they are read from where 
   for (const std::string& line : lines(rest.out)) {
     if (contains(line, "[0:9]")) CHECK(line.ends_with(" -"));
   }
-  const Outcome whole = run_lockstep({"log", "measure", one, "--measure", "progress-distance[0:9]"});
+  const Outcome whole =
+      run_lockstep({"log", "measure", one, "--measure", "progress-distance[0:9]"});
   CHECK(whole.err == "");
   CHECK(!contains(whole.out, " -\n"));
 }

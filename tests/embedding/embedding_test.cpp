@@ -1324,7 +1324,9 @@ TEST_CASE("the recording of a run that its program ends has the reason stopped, 
   {
     runtime::Run run(project);
     run.record(file);
-    SECTION("between two ticks") { CHECK(run.tick(0) == Status::Running); }
+    SECTION("between two ticks") {
+      CHECK(run.tick(0) == Status::Running);
+    }
     SECTION("in a loop") {
       int ticks = 0;
       runtime::LoopSettings settings;

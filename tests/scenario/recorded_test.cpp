@@ -223,16 +223,16 @@ TEST_CASE("a value that the recording does not have is named in the scenario and
   }
 }
 
-TEST_CASE("a value that another leaf, or the same one, may have written later in the tick is named") {
+TEST_CASE(
+    "a value that another leaf, or the same one, may have written later in the tick is named") {
   const TemporaryDirectory directory;
   const std::string run = directory.path("run.jsonl");
   const auto note = [&](const std::string& root, const std::string& nodes) {
-    const std::string tree =
-        directory.file("t.xml", "<root " + root + "><BehaviorTree ID=\"T\">" + nodes + "</BehaviorTree></root>");
-    std::vector<std::string> command{"run",         tree,          "--mock",        "--clock",
-                                     "virtual",     "--view",      "none",          "--record",
-                                     run,           "--mock-leaf", "A=success:0",   "--mock-output",
-                                     "A.o=x"};
+    const std::string tree = directory.file(
+        "t.xml", "<root " + root + "><BehaviorTree ID=\"T\">" + nodes + "</BehaviorTree></root>");
+    std::vector<std::string> command{
+        "run",      tree, "--mock",      "--clock",     "virtual",       "--view", "none",
+        "--record", run,  "--mock-leaf", "A=success:0", "--mock-output", "A.o=x"};
     if (contains(nodes, "<B "))
       command.insert(command.end(), {"--mock-leaf", "B=success:0", "--mock-output", "B.o=y"});
     const Outcome ran = run_lockstep(command);
@@ -240,26 +240,33 @@ TEST_CASE("a value that another leaf, or the same one, may have written later in
     REQUIRE(ran.code < 2);
     return run_lockstep({"log", "scenario", run}).err;
   };
-  const std::string often = "note: 'e' may have been written several times in tick 0: only its last ";
-  CHECK(contains(note(R"(lockstep="1")", R"(<Sequence memory="true"><A o="{e}"/><Check code="e == 'x'"/>
+  const std::string often =
+      "note: 'e' may have been written several times in tick 0: only its last ";
+  CHECK(contains(
+      note(R"(lockstep="1")", R"(<Sequence memory="true"><A o="{e}"/><Check code="e == 'x'"/>
 <B o="{e}"/></Sequence>)"),
-                 often + "value is recorded, and 'T/Sequence/A' writes that"));
-  CHECK(contains(note(R"(BTCPP_format="4")", R"(<Sequence><Script code="n := 0"/><RetryUntilSuccessful num_attempts="4"><Sequence>
+      often + "value is recorded, and 'T/Sequence/A' writes that"));
+  CHECK(contains(
+      note(R"(BTCPP_format="4")",
+           R"(<Sequence><Script code="n := 0"/><RetryUntilSuccessful num_attempts="4"><Sequence>
 <A o="{e}"/><Script code="n += 1"/><ScriptCondition code="n == 3"/></Sequence></RetryUntilSuccessful></Sequence>)"),
-                 often));
-  CHECK(!contains(note(R"(lockstep="1")", R"(<Sequence memory="true"><A o="{e}"/><Check code="e == 'x'"/>
+      often));
+  CHECK(!contains(
+      note(R"(lockstep="1")", R"(<Sequence memory="true"><A o="{e}"/><Check code="e == 'x'"/>
 <B o="{f}"/></Sequence>)"),
-                  "several times"));
+      "several times"));
 }
 
 TEST_CASE("the scenario of a recording has rows for leaves only, and outputs only as outputs") {
-  CHECK(!contains(scenario_of({"<Sequence memory=\"true\"><RoundRobin><AlwaysSuccess/></RoundRobin></Sequence>", "", "",
-                               R"(lockstep="1"><plugin name="nav"/)"}),
-                  "RoundRobin"));
+  CHECK(!contains(
+      scenario_of({"<Sequence memory=\"true\"><RoundRobin><AlwaysSuccess/></RoundRobin></Sequence>",
+                   "", "", R"(lockstep="1"><plugin name="nav"/)"}),
+      "RoundRobin"));
   // Nobody has the plugin when the scenario is made.
   const TemporaryDirectory directory;
   const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
-  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T"><Parallel>
+  const std::string tree =
+      directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T"><Parallel>
 <Advance name="a" step="0.25" actual="{x}"/><Advance name="b" step="0.1" least_pace="{x}"/></Parallel></BehaviorTree></root>)");
   REQUIRE(run_lockstep({"run", tree, "--plugin", "motion", "--clock", "virtual", "--view", "none",
                         "--record", run})
@@ -273,11 +280,13 @@ TEST_CASE("the scenario of a recording has rows for leaves only, and outputs onl
 TEST_CASE("a text with ${ is itself in the scenario of a recording") {
   const TemporaryDirectory directory;
   const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
-  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><arg name="m" default="$${x} $$${y}"/>
+  const std::string tree =
+      directory.file("t.xml", R"(<root lockstep="1"><arg name="m" default="$${x} $$${y}"/>
 <BehaviorTree ID="T"><Sequence memory="true"><Script code="s := '${m}'"/><A o="{e}"/><Check code="e == s"/></Sequence></BehaviorTree></root>)");
-  REQUIRE(run_lockstep({"run", tree, "--mock", "--clock", "virtual", "--view", "none", "--mock-leaf",
-                        "A=success:0", "--mock-output", "A.o=${x} $${y}", "--record", run})
-              .code == 0);
+  REQUIRE(
+      run_lockstep({"run", tree, "--mock", "--clock", "virtual", "--view", "none", "--mock-leaf",
+                    "A=success:0", "--mock-output", "A.o=${x} $${y}", "--record", run})
+          .code == 0);
   REQUIRE(run_lockstep({"log", "scenario", run, "--save", file}).code == 0);
   const Outcome played = run_lockstep({"test", file});
   INFO(read_file(file) << played.out << played.err);

@@ -518,8 +518,8 @@ TEST_CASE("which findings count is what --only says") {
   const Outcome mistyped = only("property/clsoe");
   CHECK(mistyped.code == 2);
   CHECK(contains(mistyped.err, "--only: there is no property 'property/clsoe'"));
-  for (const char* const name : {"traps", "never-ticked", "never-ticked/T/Sequence/Falback",
-                                 "never_ticked/*", "*trap"}) {
+  for (const char* const name :
+       {"traps", "never-ticked", "never-ticked/T/Sequence/Falback", "never_ticked/*", "*trap"}) {
     INFO(name);
     const Outcome unknown = only(name);
     CHECK(unknown.code == (std::string_view(name) == "*trap" ? 0 : 2));

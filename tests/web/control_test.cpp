@@ -229,8 +229,8 @@ TEST_CASE("the history is lines, also where the recording is none") {
   const TemporaryDirectory directory;
   for (const char* const name : {"run.jsonl.zst", "run.mcap"}) {
     CAPTURE(name);
-    Controlled it(kPull, {"--clock", "virtual", "--set", "pause=3", "--record",
-                          directory.path(name)});
+    Controlled it(kPull,
+                  {"--clock", "virtual", "--set", "pause=3", "--record", directory.path(name)});
     it.order({{"do", "step"}, {"ticks", 200}});
     it.wait_for_tick(199);
     const Response response = get(it.run().port(), "/history", it.token());

@@ -251,8 +251,9 @@ const Attribute* misspelled(const NodeElement& element, const Model& model, std:
 }
 
 // Adds the ports that the model declares and the element does not give.
-std::vector<Attribute> add_defaults(const NodeElement& element, const Model& model, const Reporter& report,
-                  std::string_view id, CheckedTrees& trees) {
+std::vector<Attribute> add_defaults(const NodeElement& element, const Model& model,
+                                    const Reporter& report, std::string_view id,
+                                    CheckedTrees& trees) {
   std::vector<Attribute> defaults;
   for (const ModelPort& port : model.ports) {
     if (find_attribute(element.attributes, port.name) != nullptr) continue;
@@ -282,8 +283,8 @@ std::vector<Attribute> add_defaults(const NodeElement& element, const Model& mod
 }  // namespace
 
 std::vector<Attribute> read_subtree_attributes(const NodeElement& element, const Models& models,
-                             const Reporter& report, CheckedNode& node, CheckedSubTree& subtree,
-                             CheckedTrees& trees) {
+                                               const Reporter& report, CheckedNode& node,
+                                               CheckedSubTree& subtree, CheckedTrees& trees) {
   subtree.first = static_cast<std::uint32_t>(trees.remappings.size());
   for (const Attribute& attribute : element.attributes) {
     const auto& [name, value, place] = attribute;

@@ -18,7 +18,7 @@ void read_attributes(const NodeElement& element, const Reporter& report, Checked
 // The same for a SubTree, whose attributes are remappings. Returns the defaults that the model of
 // its tree adds.
 std::vector<Attribute> read_subtree_attributes(const NodeElement& element, const Models& models,
-                             const Reporter& report, CheckedNode& node, CheckedSubTree& subtree,
-                             CheckedTrees& trees);
+                                               const Reporter& report, CheckedNode& node,
+                                               CheckedSubTree& subtree, CheckedTrees& trees);
 
 }  // namespace lockstep::host::btcpp

@@ -198,9 +198,9 @@ Style style_of(RunResult result) {
 }
 
 std::string_view to_string(StopReason reason) {
-  constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",   "max_ticks",
-                                         "signal",    "overrun", "recording", "property",
-                                         "stopped"};
+  constexpr std::string_view kNames[] = {"completed", "fault",    "timeout",
+                                         "max_ticks", "signal",   "overrun",
+                                         "recording", "property", "stopped"};
   return kNames[static_cast<unsigned>(reason)];
 }
 

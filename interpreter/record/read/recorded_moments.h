@@ -46,7 +46,7 @@ class RecordedMoments {
   std::vector<const double*> limits_, factors_;
   std::vector<std::span<const double>> uses_;
   std::vector<NodeState> within_;  // before a node asked for the last time; empty: before the tick
-  std::vector<bool> is_guard_;  // it is ticked again after it has completed
+  std::vector<bool> is_guard_;     // it is ticked again after it has completed
   std::vector<Keeper> keepers_;
   std::vector<NodeIndex> ended_;
   std::vector<EntryText> texts_;

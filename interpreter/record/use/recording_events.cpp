@@ -129,7 +129,8 @@ class Events {
     if (is_over) is_told_held_[node] = false;
     if (is_over && state.status() != Status::Idle) add(EventKind::Release, it.path, "");
     const auto change = change_of(before, state);
-    if (it.question && change) std::ranges::find(questions_, node, &Question::node)->is_told = false;
+    if (it.question && change)
+      std::ranges::find(questions_, node, &Question::node)->is_told = false;
     if (times > 0 && state.ticked() && has_ended(state.status())) {
       add_result(it, state.status(), times);
     } else if (change) {

@@ -33,8 +33,8 @@ enum class EventKind : std::uint8_t {
 };
 // Of each, in this order: as --event and all formats spell it.
 inline constexpr std::array<std::string_view, 15> kEventNames = {
-    "start", "success", "failure", "skipped", "halt",  "hold", "release", "pace",
-    "fault", "ask",     "answer",  "entry",   "log",   "lost", "end"};
+    "start", "success", "failure", "skipped", "halt", "hold", "release", "pace",
+    "fault", "ask",     "answer",  "entry",   "log",  "lost", "end"};
 static_assert(kEventNames.size() == static_cast<std::size_t>(EventKind::End) + 1);
 
 constexpr std::string_view to_string(EventKind kind) {

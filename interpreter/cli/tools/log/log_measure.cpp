@@ -24,10 +24,11 @@ int print_measures(const LogMeasureOptions& options, std::span<const MeasureSpec
   if (!values) return usage_error(printable(values.error().message));
   if (!reader.error().empty()) return report_end(reader);
   if (const std::uint64_t first = reader.header().first_tick; first > 0) {
-    print_note(fmt::format("the recording begins with tick {}: a measure is of the ticks from there on, "
-                           "without a value if it counts from the first tick of the run; ticks, "
-                           "duration and success are of the run",
-                           first));
+    print_note(
+        fmt::format("the recording begins with tick {}: a measure is of the ticks from there on, "
+                    "without a value if it counts from the first tick of the run; ticks, "
+                    "duration and success are of the run",
+                    first));
   }
   const std::string text =
       options.json ? to_json(*values) + "\n" : to_table(*values, results_width());

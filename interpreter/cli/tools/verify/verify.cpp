@@ -313,12 +313,9 @@ class VerifyCommand {
 
   int write_fmea(const Runnable& runnable, const LeafModels& models, double rate) const {
     SearchLine line;
-    const std::vector<FailureRow> rows =
-        failure_table(runnable.tree, models, properties_,
-                      {.rate = rate,
-                       .pairs = options_.pairs,
-                       .limits = limits(line),
-                       .until = end_of_search()});
+    const std::vector<FailureRow> rows = failure_table(
+        runnable.tree, models, properties_,
+        {.rate = rate, .pairs = options_.pairs, .limits = limits(line), .until = end_of_search()});
     const FmeaReport report{runnable.tree, properties_, rows, rate};
     const int failed = write_results(to_text(report, options_.json ? "json" : options_.format));
     const int signal = StopSignals::received();
