@@ -1,7 +1,5 @@
 #include "engine/writers.h"
 
-#include "language/expression/expression.h"  // IWYU pragma: keep
-
 #include <algorithm>
 #include <utility>
 
