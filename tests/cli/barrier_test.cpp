@@ -194,3 +194,18 @@ TEST_CASE("barrier: a recording whose members are no nodes is refused") {
     CHECK(info.code == 3);
   }
 }
+
+TEST_CASE("barrier: a member that is skipped after it has succeeded is at 1 in a recording, too") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.path("run.jsonl");
+  const std::string tree = directory.file("tree.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<barrier name="g" barriers="1"/><BehaviorTree ID="T"><Sequence memory="true"><Script code="x := 0"/><Parallel memory="false">
+<SyncProgress barrier="g"><Advance name="a" step="1" on_success="x := 1" skip_if="x == 1"/></SyncProgress>
+<SyncProgress barrier="g"><Advance name="b" step="0.1"/></SyncProgress></Parallel></Sequence></BehaviorTree></root>)");
+  const Outcome run =
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  CHECK(contains(run.out, "progress distance 4.5,"));
+  const Outcome measured =
+      run_lockstep({"log", "measure", file, "--measure", "progress-distance:g"});
+  CHECK(contains(measured.out, " 4.5\n"));
+}

@@ -123,8 +123,9 @@ void RecordedMoments::read_ended(const RecordedTick& tick) {
 }
 
 // The moment after which a node asked its children for the last time in a tick; none: it asked them
-// before the first one. It has asked anew if a child is ticked that had a result in this tick: what
-// it does below itself, such as a reset, is in several moments only while it is Running.
+// before the first one. It has asked again if a child is ticked that had a result in this tick: a
+// child whose tick has several moments, since something below it was reset, is Running between
+// them.
 std::optional<std::size_t> RecordedMoments::asked_after(const Keeper& keeper,
                                                         const MomentsView& moments) {
   std::optional<std::size_t> last;
@@ -151,14 +152,15 @@ std::optional<std::size_t> RecordedMoments::asked_after(const Keeper& keeper,
 
 // The columns are still those of the tick before.
 void RecordedMoments::read_used(Keeper& keeper, const RecordedTick& tick) {
-  const auto last = tick.moments.empty() ? std::nullopt : asked_after(keeper, tick.moments);
+  const bool asks_once = keeper.is_plain || tick.moments.empty();
+  const auto last = asks_once ? std::nullopt : asked_after(keeper, tick.moments);
   within_.clear();
   if (last) tick.moments.after(*last, within_);
   for (std::size_t child = 0; child < keeper.children.size(); ++child) {
     const NodeIndex node = keeper.children[child];
     const RecordedState& state = tick.nodes[node];
     double& used = keeper.used[child];
-    used = keeper.is_plain ? in_plain_parallel(keeper, child, state) : state.progress;
+    used = keeper.is_plain ? in_plain_parallel(keeper, child, tick) : state.progress;
     if (is_left_out(keeper, child)) used = kLeftOut;
   }
 }
@@ -171,10 +173,24 @@ Status RecordedMoments::before(NodeIndex node) const {
 // A parallel that does not synchronize is judged by what was there before its tick, and none of its
 // children has progress when it starts again. A child that it does not tick again counts as 1.
 double RecordedMoments::in_plain_parallel(const Keeper& keeper, std::size_t child,
-                                          const RecordedState& state) const {
+                                          const RecordedTick& tick) {
   if (before(keeper.node) != Status::Running) return 0;
-  const bool has_failed = before(keeper.children[child]) == Status::Failure;
-  return has_failed && !is_guard_[keeper.children[child]] && !state.ticked ? 1 : state.progress;
+  const NodeIndex node = keeper.children[child];
+  const bool has_failed = before(node) == Status::Failure;
+  const bool is_latched = has_failed && !is_guard_[node] && !is_ticked(tick, keeper.node, node);
+  return is_latched ? 1 : tick.nodes[node].progress;
+}
+
+// Whether a tick reaches a child before its parallel ends in it: after that, it may begin again.
+bool RecordedMoments::is_ticked(const RecordedTick& tick, NodeIndex parallel, NodeIndex child) {
+  if (tick.moments.empty()) return tick.nodes[child].ticked;
+  bool is_ticked = false, has_ended = false;
+  tick.moments.each(within_, [&](std::span<const NodeState> now, const TickMoment&, bool) {
+    is_ticked |= !has_ended && now[child].ticked();
+    has_ended |= now[parallel].status() != Status::Running;
+  });
+  within_.clear();
+  return is_ticked;
 }
 
 // True for a child that was skipped in the last tick, or is in what was; in some groups also for a
@@ -184,8 +200,9 @@ bool RecordedMoments::is_left_out(const Keeper& keeper, std::size_t child) const
   const bool is_group = !keeper.members.empty();
   const bool runs = before(keeper.node) == Status::Running;
   const Status last = before(is_group ? keeper.members[child] : keeper.children[child]);
+  if (is_group && keeper.used[child] != 0) return false;  // a member that has succeeded stays at 1
   if (runs && last == Status::Skipped) return true;
-  if (!is_group || keeper.used[child] != 0) return false;
+  if (!is_group) return false;
   const auto was_skipped = [&](NodeIndex node) { return before(node) == Status::Skipped; };
   if (runs && std::ranges::any_of(keeper.around[child], was_skipped)) return true;
   return keeper.ignores_idle && (!runs || last == Status::Idle);

@@ -34,8 +34,8 @@ class RecordedMoments {
   void add(const RecordingHeader& header, NodeIndex node);
   std::optional<std::size_t> asked_after(const Keeper& keeper, const MomentsView& moments);
   void read_used(Keeper& keeper, const RecordedTick& tick);
-  double in_plain_parallel(const Keeper& keeper, std::size_t child,
-                           const RecordedState& state) const;
+  double in_plain_parallel(const Keeper& keeper, std::size_t child, const RecordedTick& tick);
+  bool is_ticked(const RecordedTick& tick, NodeIndex parallel, NodeIndex child);
   Status before(NodeIndex node) const;
   bool is_left_out(const Keeper& keeper, std::size_t child) const;
   void read_ended(const RecordedTick& tick);
