@@ -148,7 +148,7 @@ std::span<const LeafBreach> LeafAudit::after_tick(const Moment& moment,
 }
 
 std::uint32_t LeafAudit::writes_of(const Moment& moment, std::uint32_t entry) const {
-  return moment.live != nullptr ? moment.entries[entry].writes() : moment.texts[entry].writes;
+  return moment.live != nullptr ? moment.entries[entry].changes() : moment.texts[entry].writes;
 }
 
 // Whether the node has been called in the tick: ticked, halted or paused.

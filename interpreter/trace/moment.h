@@ -28,7 +28,7 @@ namespace lockstep::host {
 // An entry as a recording shows it.
 struct EntryText {
   std::optional<std::string> text = {};  // its value; none: too long to be shown, or there is none
-  std::uint32_t writes = 0;              // how often it was written, as Entry::writes
+  std::uint32_t writes = 0;              // how often it was written, as Entry::changes
 };
 
 // The last word that a robot has heard from another one of its team.

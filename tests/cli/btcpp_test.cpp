@@ -26,6 +26,22 @@ Outcome run_mocked(const std::string& tree, std::vector<std::string> more) {
 
 }  // namespace
 
+TEST_CASE(
+    "an entry that is removed and written again in a tick has its new value for all who watch") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("tree.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>
+<Script code="v := 'a'"/><Sleep msec="100"/><UnsetBlackboard key="v"/><Script code="v := 'b'"/><Sleep msec="100"/>
+</Sequence></BehaviorTree></root>)");
+  const std::string file = directory.path("run.jsonl"), property = "sometimes {v} == 'b'";
+  const Outcome run = run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view",
+                                    "none", "--record", file, "--property", property});
+  CHECK(contains(run.out, property + ": holds"));
+  CHECK(run_lockstep({"log", "check", file, "--property", property}).code == 0);
+  CHECK(run_lockstep({"log", "events", file, "--event", "entry", "--format", "csv"}).out ==
+        "tick,time_s,event,what,value\n0,0,entry,v,a\n1,0.1,entry,v,b\n");
+}
+
 TEST_CASE("check takes a tree without its plugins, and --strict does not") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", document(kNodes));

@@ -14,9 +14,9 @@ enum class Typing : std::uint8_t {
   Any        // nobody has declared a type: `type` has no meaning
 };
 
-// Whoever looks for changes compares `writes`, not values: a recorder, a property, a node such as
-// EntryUpdated, a parameter that was read before. So a value that changes without a count is a
-// change that nobody sees, and only `to_write` gives access to the value.
+// Whoever looks for changes compares counts, not values: a recorder and a property `changes`, a
+// node such as EntryUpdated and a parameter that was read before `writes`. So a value that changes
+// without a count is a change that nobody sees, and only `to_write` gives access to the value.
 class Entry {
  public:
   Entry() = default;
@@ -26,8 +26,17 @@ class Entry {
 
   const Value& value() const { return value_; }  // NoValue: not written yet
   bool has_value() const { return !std::holds_alternative<NoValue>(value_); }
-  // How often it was written since it was made. It may wrap.
+  // How often it was written since it was made. It may wrap, and begins at 0 again when the entry
+  // is removed: an entry that is removed and written in each tick always has 1.
   std::uint32_t writes() const { return writes_; }
+  // How often it was written in all.
+  std::uint32_t changes() const { return before_ + writes_; }
+  // It is made again, without a value.
+  void make_again(Typing typing_again, ValueType its_type, const ObjectType* its_object) {
+    const std::uint32_t before = changes();
+    *this = Entry(typing_again, its_type, its_object);
+    before_ = before;
+  }
 
   // Counts a write, and returns what it changes in place.
   Value& to_write() {
@@ -54,6 +63,7 @@ class Entry {
  private:
   Value value_;
   std::uint32_t writes_ = 0;
+  std::uint32_t before_ = 0;  // writes, before it was made
 
  public:
   ValueType type = ValueType::String;
@@ -65,10 +75,10 @@ class Entry {
 // Makes an entry that is not present, without a value.
 inline void make_entry(Entry& entry, Typing typing, ValueType type = ValueType::String,
                        const ObjectType* object = nullptr) {
-  entry = Entry(typing, type, object);
+  entry.make_again(typing, type, object);
 }
 
-// Removes it: its value, its type and its count are gone.
+// Removes it: its value, its type and its count of writes are gone.
 inline void unset_entry(Entry& entry) {
   make_entry(entry, Typing::Any);
   entry.is_present = false;

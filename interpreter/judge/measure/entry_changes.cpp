@@ -57,7 +57,7 @@ EntryChanges::EntryChanges(const std::vector<std::uint32_t>& slots) {
 }
 
 void EntryChanges::before_tick(std::span<const Entry> entries) {
-  for (Watched& it : watched_) it.is_set |= entries[it.slot].writes() != it.writes_of_tick;
+  for (Watched& it : watched_) it.is_set |= entries[it.slot].changes() != it.writes_of_tick;
 }
 
 std::span<const EntryChange> EntryChanges::changes(std::span<const Entry> entries) {
@@ -65,13 +65,13 @@ std::span<const EntryChange> EntryChanges::changes(std::span<const Entry> entrie
   for (std::uint32_t number = 0; number < watched_.size(); ++number) {
     Watched& watched = watched_[number];
     const Entry& entry = entries[watched.slot];
-    watched.writes_of_tick = entry.writes();
-    if (watched.writes == entry.writes()) continue;
+    watched.writes_of_tick = entry.changes();
+    if (watched.writes == entry.changes()) continue;
     if (!entry.has_value()) continue;
     // A text that is too long may be another value, so it is shown each time it is written.
     const bool is_short = put_short(entry.value(), watched.next);
     if (is_short && watched.has_text && watched.next == watched.text) {
-      watched.writes = entry.writes();
+      watched.writes = entry.changes();
       watched.is_set = false;
     } else {
       changes_.push_back(
@@ -99,7 +99,7 @@ std::span<const EntryChange> EntryChanges::values() {
 void EntryChanges::keep() {
   for (const EntryChange& change : changes_) {
     Watched& watched = watched_[change.entry];
-    watched.writes = entries_[watched.slot].writes();
+    watched.writes = entries_[watched.slot].changes();
     watched.has_text = change.text != nullptr;
     watched.is_set = false;
     std::swap(watched.text, watched.next);

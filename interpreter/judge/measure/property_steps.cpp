@@ -18,8 +18,8 @@ std::optional<bool> compare_entry(const Moment& moment, const EntryComparison& c
                                   std::optional<std::uint32_t>& seen, std::string& room) {
   if (moment.texts.empty()) {
     const Entry& entry = moment.entries[comparison.entry];
-    if (seen == entry.writes() || !entry.has_value()) return std::nullopt;
-    seen = entry.writes();
+    if (seen == entry.changes() || !entry.has_value()) return std::nullopt;
+    seen = entry.changes();
     return comparison.holds_for(entry.value(), room);
   }
   const EntryText& entry = moment.texts[comparison.entry];

@@ -19,7 +19,7 @@ std::optional<std::string> text_of(const Moment& moment, std::uint32_t entry) {
 }
 
 std::uint32_t writes_of(const Moment& moment, std::uint32_t entry) {
-  return moment.live == nullptr ? moment.texts[entry].writes : moment.entries[entry].writes();
+  return moment.live == nullptr ? moment.texts[entry].writes : moment.entries[entry].changes();
 }
 
 // A leaf has one reason in a tick, which is that of the last attempt. Those before it are one row.
