@@ -30,9 +30,9 @@ bool HeldLeaves::is_done(NodeContext& context, Held& held) {
   LeafSlot& leaf = context.leaf(held.node);
   if (leaf.failed()) return context.status(held.node) != Status::Running;  // see last_progress
   if (!context.held(held.node) || leaf.went_on) return true;
+  // Without a share: a call of the tick finds the fault, and last_progress looks here then.
   const auto now = look_at_progress(context, held.node);
-  if (!now) return true;
-  if (*now <= held.most + kProgressEpsilon) return false;
+  if (!now || *now <= held.most + kProgressEpsilon) return false;
   held.most = *now;
   if (++held.rises < kRises || *now < held.from + kMuch) return false;
   leaf.went_on = true;

@@ -51,7 +51,7 @@ class LeafCall {
   static bool can_be_in_line(const NodeContext& context, const LeafSlot& leaf) {
     return context.in_line_ != nullptr && !leaf.is_timed();
   }
-  // Of a leaf that is out. One whose fault was found between two ticks has not fallen back: it has
+  // Of a leaf that is out. One whose fault was found while it was held has not fallen back: it has
   // the progress that it had, until its Failure. In nodes/leaf.cpp.
   static double last_progress(const NodeContext& context, NodeIndex node);
 

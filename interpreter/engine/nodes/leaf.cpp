@@ -281,7 +281,7 @@ void pause_control(NodeContext& context, NodeIndex self) {
 }
 
 double corrected(NodeContext& context, NodeIndex self, LeafSlot& leaf, double reported) {
-  if (take_error(context, self, leaf)) return 0.0;
+  if (take_error(context, self, leaf)) return LeafCall::last_progress(context, self);
   if (std::isnan(reported)) {
     context.set_fault(self, "reported a progress that is not a number");
     return 0.0;
