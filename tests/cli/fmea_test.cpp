@@ -210,3 +210,20 @@ TEST_CASE("the table of failures has each leaf that is halted, also late and at 
   CHECK(halted("<Parallel><A name=\"a\"/><A name=\"b\"/></Parallel>", "T/Parallel/b", "fault") ==
         R"(["T/Parallel/a"])");
 }
+
+TEST_CASE("the time of a table of failures is for all of its rows, and what is short has its row") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", R"(<root lockstep="1"><BehaviorTree ID="T">
+<Timeout seconds="1000000"><Parallel><A name="a"/><A name="b"/></Parallel></Timeout></BehaviorTree></root>)");
+  const Outcome outcome =
+      run_lockstep({"verify", tree, "--mock", "--fmea", "--format", "json", "--time", "2"});
+  CHECK(outcome.code == 124);
+  CHECK(outcome.cpu_seconds < 3);
+  const auto rows = parse_json(outcome.out);
+  REQUIRE(rows.size() == 10);
+  for (const auto& row : rows) {
+    const std::string how = row["failures"][0]["failure"];
+    if (how == "fails at once" || how == "fault") CHECK(row["complete"].get<bool>());
+    if (how == "never ends") CHECK_FALSE(row["complete"].get<bool>());
+  }
+}

@@ -25,10 +25,9 @@ EntryTypes::EntryTypes(const Definition* definition) : definition_(definition) {
   for (const BoundScript& script : definition->scripts) see_script(script);
 }
 
-// Of a language, not a leaf that has such a name, as SwitchLight.
+// Of a language, not a node of a plugin that has such a name, as SwitchLight.
 bool EntryTypes::is_switch(const NodeType& type) {
-  return type.id.starts_with("Switch") && type.category == NodeCategory::Control &&
-         type.plugin.empty() && type.mock == nullptr && !type.parameters.empty();
+  return type.mock == nullptr && type.id.starts_with("Switch");
 }
 
 void EntryTypes::add(std::optional<ValueType>& seen, bool& differ, ValueType type) {

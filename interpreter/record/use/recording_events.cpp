@@ -97,8 +97,8 @@ class Events {
   }
 
  private:
-  // A node asks when its activation begins, and anew with another text. A reason is told only where
-  // it differs from the line before, and after a cut: a question that is asked again may have none.
+  // A node asks with each text that it did not have before: it has none after each activation. The
+  // line after a cut has the same text again.
   void add_questions(const RecordedTick& tick, bool is_first) {
     for (Question& it : questions_) {
       const auto reason = std::ranges::find(tick.reasons, it.node, &RecordedReason::node);
@@ -128,12 +128,9 @@ class Events {
     const bool is_over = is_told_held_[node] && !state.held();
     if (is_over) is_told_held_[node] = false;
     if (is_over && state.status() != Status::Idle) add(EventKind::Release, it.path, "");
-    const auto change = change_of(before, state);
-    if (it.question && change)
-      std::ranges::find(questions_, node, &Question::node)->is_told = false;
     if (times > 0 && state.ticked() && has_ended(state.status())) {
       add_result(it, state.status(), times);
-    } else if (change) {
+    } else if (const auto change = change_of(before, state)) {
       add(*change, it.path, "");
     }
     if (!is_told_held_[node] && is_held_itself(node, now)) {
