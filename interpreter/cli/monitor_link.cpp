@@ -35,9 +35,7 @@ void MonitorLink::tell(const std::string& link, bool opens) {
   if (!registration_.is_listed()) {
     messages().say(
         "lockstep: warning: other commands do not find this run: its file in XDG_RUNTIME_DIR or "
-        "/tmp "
-        "cannot be written, or belongs to a run with the same process number in another "
-        "container\n");
+        "/tmp cannot be written, or another container has a run with its process number\n");
   }
   messages().say("monitor: " + link + "\n");
   if (opens && !open_in_browser(link)) {

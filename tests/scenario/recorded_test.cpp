@@ -262,7 +262,7 @@ TEST_CASE("the scenario of a recording has rows for leaves only, and outputs onl
       scenario_of({"<Sequence memory=\"true\"><RoundRobin><AlwaysSuccess/></RoundRobin></Sequence>",
                    "", "", R"(lockstep="1"><plugin name="nav"/)"}),
       "RoundRobin"));
-  // Nobody has the plugin when the scenario is made.
+  // The plugin is not given when the scenario is made.
   const TemporaryDirectory directory;
   const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
   const std::string tree =

@@ -28,7 +28,7 @@ struct WatchedRun {
 };
 
 // The lines of a run that comes to `ticks`, without its closing line. Behind a cut, it begins with
-// tick `first`, and its leaves begin anew.
+// tick `first`, and its leaves start again.
 std::string recorded_lines(std::string_view tree, std::string_view leaves, std::uint64_t first,
                            std::uint64_t ticks);
 

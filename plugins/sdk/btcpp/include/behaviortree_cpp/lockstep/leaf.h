@@ -99,7 +99,7 @@ struct Leaf {
       return kept.size();
     });
   }
-  // One that goes on is RUNNING, so that its next tick is no first one. onRestored does not learn
+  // One that continues is RUNNING, so that its next tick is no first one. onRestored does not learn
   // that it is held, so it is paused again.
   static lockstep_after_cut restore(void* self, const void* bytes, std::size_t size,
                                     const lockstep_cut* cut) {
