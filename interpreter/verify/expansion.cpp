@@ -97,8 +97,7 @@ void Expander::expand(const StateStore& known, StateId first, StateId last, Sear
   for (StateId state = first; state < last; ++state) {
     labeller_.shape().clear(end_);
     for_each_tick(
-        state, known[state], into,
-        [&](const Step& step, Status status) { take(step, status, into); },
+        state, known[state], into, [&](Status status) { take(state, status, into); },
         [&] { return why_cut(into); });
     const bool some_are_held =
         std::ranges::any_of(end_.bits, [](std::byte it) { return it != std::byte{0}; });
@@ -114,12 +113,12 @@ void Expander::expand_again(const StateStore& known, std::span<const StateId> st
   begin(known, room, into);
   most_root_ticks_ = std::numeric_limits<std::uint64_t>::max();
   for (const StateId state : states) {
-    const auto take_again = [&](const Step& step, Status status) {
+    const auto take_again = [&](Status status) {
       if (status != Status::Running || stepper_.ticker().faulted()) return;
       labeller_.of(stepper_);
       const StateBytes& goal = stepper_.fold();
       const StateId to = known_->find(goal, hash_of(goal));
-      if (to == kNoState || !is_wanted(step.from, to, goal)) return;
+      if (to == kNoState || !is_wanted(state, to, goal)) return;
       into.edges.push_back({to, labels_.add(labeller_.with_moves(stepper_))});
     };
     for_each_tick(state, bytes_of(state), into, take_again, [] { return std::nullopt; });
@@ -138,16 +137,14 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
   const std::uint64_t weight = 1 + stepper_.ticker().tree().nodes.size() / kNodesOfTick;
   std::uint64_t next_cut = kTicksBetweenCuts;
   std::size_t most_edges = first_edge + 10 * kTicksBetweenCuts;
-  Step step{state, 0};
   do {
     const std::optional<Status> status = tick(at, into);
     if (!status) break;
     if (stepper_.is_known()) {
       coverage_.after_tick(stepper_.ticker());
     } else {
-      take(step, *status);
+      take(*status);
     }
-    ++step.combination;
     if (!at.cut && is_over(stepper_.root_ticks() * weight)) at.cut = over_;
     if (at.cut || at.root_ticks * weight < next_cut) continue;
     next_cut = at.root_ticks * weight + kTicksBetweenCuts;
@@ -183,29 +180,29 @@ std::optional<SearchEnd> Expander::why_cut(const Chunk& chunk) const {
   return std::nullopt;
 }
 
-void Expander::take(const Step& step, Status status, Chunk& into) {
+void Expander::take(StateId from, Status status, Chunk& into) {
   Ticker& ticker = stepper_.ticker();
   coverage_.after_tick(ticker);
-  for (const std::size_t it : stepper_.violated()) tell(News::Kind::Violated, it, step, into);
+  for (const std::size_t it : stepper_.violated()) tell(News::Kind::Violated, it, into);
   if (!stepper_.leaves().broken().empty()) {
-    tell(News::Kind::Broken, 0, step, into, stepper_.leaves().broken());
+    tell(News::Kind::Broken, 0, into, stepper_.leaves().broken());
   }
   if (const auto passed = stepper_.passed()) {
-    tell(News::Kind::Passed, passed->node, step, into, passed_text(ticker.tree(), *passed));
+    tell(News::Kind::Passed, passed->node, into, passed_text(ticker.tree(), *passed));
   }
-  if (stepper_.was_cut()) tell_repeated(step, into);
+  if (stepper_.was_cut()) tell_repeated(into);
   if (const Fault* fault = ticker.fault()) {
-    tell(News::Kind::Fault, fault->node, step, into, fault->message);
+    tell(News::Kind::Fault, fault->node, into, fault->message);
     into.states.back().ends |= !stepper_.was_cut();
     return;
   }
   if (status != Status::Running) {
-    tell(News::Kind::Result, index_of(status), step, into);
+    tell(News::Kind::Result, index_of(status), into);
     into.states.back().ends |= !stepper_.was_cut();
     labeller_.add_held(stepper_, end_);
     return;
   }
-  look_at_values(step, into);
+  look_at_values(into);
   labeller_.of(stepper_);
   const StateBytes& state = stepper_.fold();
   const std::uint64_t hash = hash_of(state);
@@ -213,32 +210,30 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   if (to == kNoState) {
     to = into.fresh.add(state, hash).first | Chunk::kFresh;
   }
-  const bool is_loop = to == step.from;
+  const bool is_loop = to == from;
   into.edges.push_back(
       {to, labels_.add(is_loop ? labeller_.with_moves(stepper_) : labeller_.only_held(stepper_))});
 }
 
-void Expander::tell_repeated(const Step& step, Chunk& into) {
+void Expander::tell_repeated(Chunk& into) {
   for (const CutLeaf& it : stepper_.cut_leaves()) {
     if (!stepper_.repeats(it)) continue;
-    tell(News::Kind::Repeated, stepper_.ticker().tree().leaves[it.place].node, step, into);
+    tell(News::Kind::Repeated, stepper_.ticker().tree().leaves[it.place].node, into);
   }
 }
 
-void Expander::tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
-                    const std::string& text) {
+void Expander::tell(News::Kind kind, std::size_t which, Chunk& into, const std::string& text) {
   if (!told_.insert({kind, which}).second) return;
-  into.news.push_back({kind, static_cast<std::uint32_t>(which), step.combination, text,
-                       stepper_.answers().asked()});
+  into.news.push_back({kind, static_cast<std::uint32_t>(which), text, stepper_.answers().asked()});
 }
 
 // An entry with more and more values has no end of states.
-void Expander::look_at_values(const Step& step, Chunk& into) {
+void Expander::look_at_values(Chunk& into) {
   for (auto& [slot, known] : values_) {
     const Value& value = stepper_.ticker().blackboard().entries[slot].value();
     if (std::holds_alternative<NoValue>(value) || known.size() > limits_.values) continue;
     const auto [it, is_new] = known.insert(to_text(value));
-    if (is_new) into.news.push_back({News::Kind::EntryValue, slot, step.combination, *it});
+    if (is_new) into.news.push_back({News::Kind::EntryValue, slot, *it});
   }
 }
 

@@ -17,21 +17,14 @@
 
 namespace lockstep::host {
 
-// A tick: the state before it and which of its combinations of answers.
-struct Step {
-  StateId from = kNoState;
-  std::uint32_t combination = 0;
-};
-
 // A thread sees this for the first time: in the order of the states, the first of all threads is
 // among these.
 struct News {
   enum class Kind : std::uint8_t { Result, Fault, Broken, Passed, Repeated, Violated, EntryValue };
   Kind kind;
-  std::uint32_t which;        // a status, node, property or entry
-  std::uint32_t combination;  // of answers
+  std::uint32_t which;  // a status, node, property or entry
   std::string text = {};
-  std::vector<LeafAnswer> answers = {};  // those, but of an EntryValue
+  std::vector<LeafAnswer> answers = {};  // of the tick, but for an EntryValue
 };
 
 // What a search may take of the machine. All threads look at it.
@@ -99,11 +92,10 @@ class Expander {
   void for_each_tick(StateId state, std::span<const std::byte> bytes, Chunk& into, const Take& take,
                      const Cut& why_cut);
   std::optional<Status> tick(Chunk::State& at, Chunk& into);
-  void take(const Step& step, Status status, Chunk& into);
-  void tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
-            const std::string& text = {});
-  void tell_repeated(const Step& step, Chunk& into);
-  void look_at_values(const Step& step, Chunk& into);
+  void take(StateId from, Status status, Chunk& into);
+  void tell(News::Kind kind, std::size_t which, Chunk& into, const std::string& text = {});
+  void tell_repeated(Chunk& into);
+  void look_at_values(Chunk& into);
   std::optional<SearchEnd> why_cut(const Chunk& chunk) const;
   void begin(const StateStore& known, SearchRoom& room, Chunk& into);
   bool is_over(std::uint64_t ticks);

@@ -168,7 +168,7 @@ class Searcher {
   }
 
   void take(const News& news, StateId from) {
-    const Occurrence here{{from, news.combination}, depth() + 1, news.answers};
+    const Occurrence here{from, depth() + 1, news.answers};
     switch (news.kind) {
       case News::Kind::Result:
         if (auto& first = result_.results[news.which]; !first) first = here;

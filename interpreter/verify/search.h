@@ -14,9 +14,9 @@
 namespace lockstep::host {
 
 struct Occurrence {
-  Step step;
+  StateId from = kNoState;               // the state before the tick
   std::uint32_t ticks = 0;               // of a run until then, this one too
-  std::vector<LeafAnswer> answers = {};  // of the step
+  std::vector<LeafAnswer> answers = {};  // of it
 };
 
 struct SearchResult {

@@ -50,35 +50,37 @@ StateBytes Tracer::state_of(StateId state) {
 
 // The tick of the step is the last one.
 template <class IsWanted>
-Step Tracer::find_step(std::span<const std::byte> state, StateId from, const IsWanted& is_wanted) {
+GuidedStep Tracer::find_step(std::span<const std::byte> state, StateId from,
+                             const IsWanted& is_wanted) {
   stepper_.load(state, from == 0);
-  Step step{from, 0};
   do {
     const Status status = stepper_.tick();
     const bool goes_on = status == Status::Running && !stepper_.ticker().faulted();
-    if (goes_on && !stepper_.is_known() && is_wanted()) return step;
-    ++step.combination;
+    if (goes_on && !stepper_.is_known() && is_wanted()) return {from, stepper_.answers().asked()};
   } while (stepper_.next());
   fail("an edge of a search is not there any more");
 }
 
-Step Tracer::first_step(std::span<const std::byte> state, StateId from, StateId to) {
+GuidedStep Tracer::first_step(std::span<const std::byte> state, StateId from, StateId to) {
   return find_step(state, from, [&] { return found_.store.is(to, stepper_.fold()); });
 }
 
-Step Tracer::step_of(const CycleStep& wanted) {
+GuidedStep Tracer::step_of(const CycleStep& wanted) {
   Label label;
   found_.graph_of_cycles().read(wanted.edge, label);
-  return find_step(state_of(wanted.from), wanted.from, [&] {
+  GuidedStep step = find_step(state_of(wanted.from), wanted.from, [&] {
     labeller_.of(stepper_);
     return found_.store.is(wanted.edge.to, stepper_.fold()) &&
            labeller_.with_moves(stepper_) == label;
   });
+  step.swaps = wanted.swaps;
+  step.after = wanted.after;
+  return step;
 }
 
 std::vector<GuidedStep> Tracer::steps_of(std::span<const CycleStep> edges) {
   std::vector<GuidedStep> steps;
-  for (const CycleStep& it : edges) steps.push_back({step_of(it), it.swaps, it.after});
+  for (const CycleStep& it : edges) steps.push_back(step_of(it));
   return steps;
 }
 
@@ -92,14 +94,9 @@ TracedPath Tracer::begin(std::vector<NodeIndex> nodes) {
 }
 
 Status Tracer::tick(std::span<const std::byte> state, const GuidedStep& step) {
-  stepper_.load(state, step.step.from == 0);
-  if (!step.answers.empty()) stepper_.give(step.answers);
-  Status status = stepper_.tick();
-  for (std::uint32_t i = 0; i < step.step.combination && step.answers.empty(); ++i) {
-    stepper_.next();
-    status = stepper_.tick();
-  }
-  return status;
+  stepper_.load(state, step.from == 0);
+  stepper_.give(step.answers);
+  return stepper_.tick();
 }
 
 Status Tracer::tick(const TracedTick& tick) {
@@ -136,7 +133,7 @@ void Tracer::go(TracedPath& traced, std::span<const StateId> path) {
 void Tracer::go(TracedPath& traced, const GuidedStep& step) {
   for (const Swap& it : step.swaps) swap(traced.nodes, it);
   Outcome wanted = outcome(tick(traced.searched, step));
-  TracedTick next{traced.now, step.step.from == 0, stepper_.answers().asked()};
+  TracedTick next{traced.now, step.from == 0, stepper_.answers().asked()};
   traced.searched = wanted.searched;
   if (!found_.symmetry.empty()) {
     const std::vector<NodeIndex> nodes = traced.nodes;

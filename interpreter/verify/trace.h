@@ -20,10 +20,10 @@ using TracedRun = std::vector<TracedTick>;
 
 // A step of a search, before and after which leaves in equal states change places.
 struct GuidedStep {
-  Step step;
+  StateId from = kNoState;
+  std::vector<LeafAnswer> answers = {};
   Swaps swaps = {};
   Swap after = {};
-  std::vector<LeafAnswer> answers = {};  // of the step; empty: they are found again
 };
 
 // A run along steps of a search, as far as it has come. Where equal children have changed places in
@@ -66,9 +66,9 @@ class Tracer {
   // `nodes`: of each place, the node that begins there; empty: its own.
   TracedPath begin(std::vector<NodeIndex> nodes = {});
   void go(TracedPath& traced, std::span<const GuidedStep> steps);
-  void go(TracedPath& traced, const Step& step) { go(traced, GuidedStep{step}); }
+  void go(TracedPath& traced, const GuidedStep& step);
   void go(TracedPath& traced, const Occurrence& it) {
-    go(traced, GuidedStep{.step = it.step, .answers = it.answers});
+    go(traced, GuidedStep{.from = it.from, .answers = it.answers});
   }
   // From the first of these states of the search on to each other one, by the first tick that does.
   void go(TracedPath& traced, std::span<const StateId> path);
@@ -91,13 +91,12 @@ class Tracer {
   struct Outcome;
 
   StateBytes state_of(StateId state);
-  Step step_of(const CycleStep& edge);
-  Step first_step(std::span<const std::byte> state, StateId from, StateId to);
+  GuidedStep step_of(const CycleStep& edge);
+  GuidedStep first_step(std::span<const std::byte> state, StateId from, StateId to);
   template <class IsWanted>
-  Step find_step(std::span<const std::byte> state, StateId from, const IsWanted& is_wanted);
+  GuidedStep find_step(std::span<const std::byte> state, StateId from, const IsWanted& is_wanted);
   Status tick(std::span<const std::byte> state, const GuidedStep& step);
   Outcome outcome(Status status);
-  void go(TracedPath& traced, const GuidedStep& step);
   void swap(std::vector<NodeIndex>& nodes, const Swap& swap) const;
   std::vector<LeafAnswer> moved(std::vector<LeafAnswer> answers,
                                 std::span<const NodeIndex> nodes) const;

@@ -80,7 +80,7 @@ class VerdictMaker {
   }
   TracedRun run_to(const Occurrence& it) {
     TracedPath traced = tracer_.begin();
-    tracer_.go(traced, found_.path_to(it.step.from));
+    tracer_.go(traced, found_.path_to(it.from));
     tracer_.go(traced, it);
     return std::move(traced.run);
   }

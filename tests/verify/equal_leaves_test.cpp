@@ -89,7 +89,7 @@ TEST_CASE("equal leaves: where a run says so, they change places behind a tick")
   const Verified it("Parallel(a b)", R"(<leaf path="*" ticks="2"/>)");
   Tracer tracer(it.tree, it.models, {}, 10, it.found);
   TracedPath traced = tracer.begin();
-  const std::vector<GuidedStep> steps{{.step = {0, 0}, .swaps = {}, .after = {kLeft, kRight}}};
+  const std::vector<GuidedStep> steps{{.from = 0, .after = {kLeft, kRight}}};
   tracer.go(traced, steps);
   const NodeIndex left = it.tree.leaves[0].node, right = it.tree.leaves[1].node;
   CHECK(traced.nodes[left] == right);
