@@ -86,11 +86,11 @@ struct NodeKind {
   // Whether equal children may change places (verify/symmetry.h).
   IfMoved if_moved = IfMoved::Differs;
   bool has_any_order = false;  // its children get their ticks whatever the others do
-  // May be null. Within its tick, before it ticks the child `next`: whether it ends in this tick
-  // whatever the children from there on do. If so, all that its result depends on of the children
-  // before that one; what runs in them is halted at its end.
+  // May be null. Of some of its children, so many have these statuses in its tick: whether it ends
+  // in this tick whatever the others do. If so, all that its result depends on of these children;
+  // what runs in them is halted at its end.
   std::optional<std::uint64_t> (*sure_to_end)(const NodeContext& context, NodeIndex self,
-                                              NodeIndex next) = nullptr;
+                                              const StatusCounts& of_some) = nullptr;
   // Of a node that asks a person, between two ticks: the answer, one of its options by its place,
   // of one who has seen the tick with this number. False: it did not ask then, or does not now. May
   // be null.

@@ -7,15 +7,11 @@
 #include "verify/labels.h"
 
 namespace lockstep::host {
-namespace {
 
-// What is beside the tree looks at nodes in a way of its own.
 bool is_plain(const Tree& tree) {
   return tree.groups.empty() && tree.members.empty() && tree.readings.empty() &&
          tree.bound.empty() && !tree.keeps_over_skips;
 }
-
-}  // namespace
 
 TickPoints::TickPoints(const Tree& tree, const LeafModels& models, const std::vector<bool>& watched,
                        std::uint64_t few_ticks)
@@ -147,7 +143,11 @@ NodeIndex TickPoints::child_with(NodeIndex node, NodeIndex inside) const {
 
 // Of a node in its tick.
 bool TickPoints::put_sure_to_end(const Ticker& ticker, NodeIndex node, NodeIndex next) {
-  const auto outcome = tree_.nodes[node].kind->sure_to_end(ticker, node, next);
+  StatusCounts before{};
+  for (NodeIndex child = node + 1; child != next; child = tree_.nodes[child].end) {
+    ++before[index_of(ticker.status(child))];
+  }
+  const auto outcome = tree_.nodes[node].kind->sure_to_end(ticker, node, before);
   put(outcome.has_value());
   if (outcome) put(*outcome);
   return outcome.has_value();

@@ -37,6 +37,9 @@ constexpr std::size_t index_of(Status status) {
   return static_cast<std::size_t>(status);
 }
 
+// How many have each status.
+using StatusCounts = std::array<std::uint32_t, kStatuses.size()>;
+
 static_assert(kStatuses.size() == index_of(kLastStatus) + 1 &&
                   std::ranges::all_of(kStatuses,
                                       [](const StatusRow& row) {

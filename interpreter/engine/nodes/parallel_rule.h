@@ -85,6 +85,11 @@ inline bool is_over(const NodeContext& context, NodeIndex child) {
 // How many children have succeeded, failed and were skipped.
 class Tally {
  public:
+  Tally() = default;
+  explicit Tally(const StatusCounts& counts) {
+    for (std::size_t i = 0; i < counts.size(); ++i) counts_[i] = counts[i];
+    counts_[index_of(Status::Running)] = 0;
+  }
   // Those that have completed count from tick to tick, if it is kept so long.
   void begin_tick() { counts_[index_of(Status::Running)] = counts_[index_of(Status::Skipped)] = 0; }
   void add(Status status) {
@@ -127,11 +132,8 @@ inline Status judge(NodeContext& context, NodeIndex self, const Counts& counts,
 // Whatever the others do, no count falls, and one that is skipped asks for one less.
 template <Counts kCounts>
 std::optional<std::uint64_t> sure_to_end(const NodeContext& context, NodeIndex self,
-                                         NodeIndex next) {
-  Tally tally;
-  for (NodeIndex child = self + 1; child != next; child = context.end_of(child)) {
-    tally.add(context.status(child));
-  }
+                                         const StatusCounts& of_some) {
+  const Tally tally(of_some);
   if (!outcome(context, self, kCounts, tally).ends()) return std::nullopt;
   const auto count = [&](Status status) { return static_cast<std::uint64_t>(tally.of(status)); };
   return count(Status::Success) << 32u | count(Status::Skipped);
