@@ -48,6 +48,8 @@ class StateCode {
   static void set_cuts_of(StateBytes& state, std::uint8_t cuts) { state.back() = std::byte{cuts}; }
   // Adds the entries only, of any run.
   void add_entries(const Ticker& ticker, StateBytes& to) const;
+  // What is encoded, without the properties and the entries.
+  const KeptState& kept() const { return kept_; }
   // The node that was in each place before it was encoded; empty if none has moved.
   std::span<const NodeIndex> origins() const { return order_.origins(); }
   // The state in which each node is at one of these places.

@@ -51,6 +51,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_(fresh_),
       code_(tree, models, fresh_, nodes_of(properties, tree), symmetry),
       parameters_(tree, fresh_),
+      symmetry_(symmetry),
       models_(models),
       cuts_(models.cuts),
       cut_asker_(cut_asker(tree, models)),
@@ -60,6 +61,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_properties_(property_bytes_),
       rounds_(few_root_ticks),
       points_(tree, models, nodes_of(properties, tree), few_ticks),
+      joint_(tree, models, symmetry, rising_answers && properties.empty() ? few_ticks : kAllTicks),
       has_gone_round_(tree.nodes.size() + properties.size()) {
   ticker_.set_deadlines(deadlines_);
   ticker_.keep_moments();
@@ -86,12 +88,74 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   leaves_.restore(from_leaves_, from_facts_);
   from_cuts_ = code_.cuts();
   time_ = deadlines_.at(is_first ? 0 : 1);
+  is_begun_ = is_joint_ = false;
+  begin_combinations();
+}
+
+void Stepper::begin_combinations() {
   answers_.begin_state(from_.run, from_leaves_);
   rounds_.begin_state();
   points_.begin_state(from_leaves_);
 }
 
+void Stepper::give(std::span<const LeafAnswer> answers) {
+  is_begun_ = true;
+  is_joint_ = false;
+  answers_.give(answers);
+}
+
+void Stepper::begin_joint() {
+  is_begun_ = true;
+  if (joint_.is_empty()) return;
+  is_joint_ = joint_.begin_state(from_.run, from_leaves_, ticker_,
+                                 [this](const JointAnswers::Child& it) { return ticks_of(it); });
+  begin_combinations();
+}
+
+// A leaf stands still that runs on, or has succeeded.
+std::optional<std::vector<JointAnswers::ChildTick>> Stepper::ticks_of(
+    const JointAnswers::Child& child) {
+  constexpr std::size_t kMost = 64;
+  answers_.ask_only(child.first.leaf, child.end.leaf,
+                    [this](std::uint32_t count, std::uint32_t asker) {
+                      return models_.leaves[asker].can_run ? count - 1 : 0;
+                    });
+  std::vector<JointAnswers::ChildTick> ticks;
+  do {
+    const Status status = tick(1);
+    if (!is_done() || ticker_.faulted() || ticks.size() == kMost) return std::nullopt;
+    JointAnswers::ChildTick& it = ticks.emplace_back();
+    it.status = ticker_.status(child.first.node);
+    it.marks = marks_of(child);
+    for (const LeafAnswer& answer : answers_.asked()) {
+      it.answers.push_back({answer.asker - child.first.leaf, answer.value});
+    }
+    if (status != Status::Running) continue;
+    code_.before_fold(ticker_);
+    ticker_.fold();
+    leaves_.fold();
+    code_.encode(ticker_, leaves_, property_bytes_, StateCode::Children::AsTheyAre, moved_);
+    std::vector<std::uint64_t> words = code_.kept().words;
+    symmetry_.number_kept_children(ticker_.tree(), words, Symmetry::Numbered::FromNode);
+    it.after = JointAnswers::kept(child, code_.kept().activity, words, code_.kept().leaves);
+  } while (answers_.next());
+  return ticks;
+}
+
+// What a label has of its leaves.
+std::vector<std::byte> Stepper::marks_of(const JointAnswers::Child& child) const {
+  std::vector<std::byte> marks;
+  for (std::uint32_t leaf = child.first.leaf; leaf < child.end.leaf; ++leaf) {
+    const LeafMark& it = leaves_.marks()[leaf];
+    const unsigned bits = (it.touched ? 1u : 0u) | (it.ticked ? 2u : 0u) | (it.ended ? 4u : 0u);
+    if (models_.leaves[leaf].ends) marks.push_back(static_cast<std::byte>(bits));
+  }
+  return marks;
+}
+
 Status Stepper::tick(std::uint64_t most) {
+  if (!is_begun_) begin_joint();
+  if (is_joint_) answers_.give(joint_.answers());
   ticker_.restore(from_);
   leaves_.restore_again(from_leaves_, from_facts_);
   answers_.begin();

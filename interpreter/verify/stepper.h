@@ -10,6 +10,7 @@
 #include "base/core/deadlines.h"
 #include "leaves/model_leaf.h"
 #include "verify/barrier_watch.h"
+#include "verify/joint_answers.h"
 #include "verify/property_watch.h"
 #include "verify/read_parameters.h"
 #include "verify/rounds.h"
@@ -42,7 +43,7 @@ class Stepper {
   // From this state on. Then `tick` for each combination of answers, until `next` is false.
   void load(std::span<const std::byte> state, bool is_first);
   // In place of combinations: `tick` has these answers, once for each.
-  void give(std::span<const LeafAnswer> answers) { answers_.give(answers); }
+  void give(std::span<const LeafAnswer> answers);
   // The root's status; Running also after a fault. What the tick did can be looked at until `fold`.
   // It ticks the root so often at most; if a node then asks for more, it is not done.
   Status tick(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
@@ -60,7 +61,7 @@ class Stepper {
   }
   // How often the root was ticked: again if a node has asked for it.
   std::uint64_t root_ticks() const { return root_ticks_; }
-  bool next() { return answers_.next(); }
+  bool next() { return is_joint_ ? joint_.next() : answers_.next(); }
   // The state after a tick, with equal children in one order. Valid until the next call.
   const StateBytes& fold();
   // After that, of each place: the node that had what it has; empty if none has moved.
@@ -97,6 +98,10 @@ class Stepper {
   bool owes(std::size_t property) const { return watch_.owes(property_bytes_.data(), property); }
 
  private:
+  void begin_combinations();
+  void begin_joint();
+  std::optional<std::vector<JointAnswers::ChildTick>> ticks_of(const JointAnswers::Child& child);
+  std::vector<std::byte> marks_of(const JointAnswers::Child& child) const;
   Status tick_again(Status status, std::uint64_t most);
   bool is_cut_here();
   void cut();
@@ -116,6 +121,7 @@ class Stepper {
   StateCode code_;
   ReadParameters parameters_;
   std::optional<BarrierWatch> barriers_;  // of a search with cuts
+  const Symmetry& symmetry_;
   const LeafModels& models_;
   const ProcessCuts cuts_;
   const std::uint32_t cut_asker_;
@@ -130,6 +136,8 @@ class Stepper {
   std::uint64_t root_ticks_ = 0;
   Rounds rounds_;
   TickPoints points_;
+  JointAnswers joint_;
+  bool is_begun_ = false, is_joint_ = false;  // the state that was loaded
   bool is_known_ = false, is_going_round_ = false, is_short_ = false, is_cut_ = false;
   std::vector<bool> has_gone_round_;  // of each node: there was a fault of it; then of properties
   SavedRun round_;

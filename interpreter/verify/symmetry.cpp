@@ -33,6 +33,13 @@ class EqualChildrenFinder {
     find_where_order_counts(watched);
   }
 
+  // A node that nobody can tell from one that does the same.
+  std::vector<bool> on_their_own() const {
+    std::vector<bool> found = is_told_apart_;
+    found.flip();
+    return found;
+  }
+
   // From the last parallel to the first: the ones inside of a child come before it.
   std::vector<EqualChildren> find() {
     std::vector<EqualChildren> found;
@@ -89,21 +96,16 @@ class EqualChildrenFinder {
   }
 
   EqualChildren class_of(const std::vector<NodeIndex>& children) const {
-    const EqualChildren::Place first = place_of(children.front());
-    const EqualChildren::Place last = place_of(tree_.nodes[children.front()].end);
+    const EqualChildren::Place first = EqualChildren::place_of(tree_, children.front());
+    const EqualChildren::Place last =
+        EqualChildren::place_of(tree_, tree_.nodes[children.front()].end);
     EqualChildren found{.nodes = last.node - first.node,
                         .leaves = last.leaf - first.leaf,
                         .words = last.word - first.word,
                         .places = {}};
-    for (const NodeIndex child : children) found.places.push_back(place_of(child));
+    for (const NodeIndex child : children)
+      found.places.push_back(EqualChildren::place_of(tree_, child));
     return found;
-  }
-
-  EqualChildren::Place place_of(NodeIndex node) const {
-    const auto leaf = std::ranges::lower_bound(tree_.leaves, node, {}, &LeafNode::node);
-    const std::size_t byte = node < tree_.nodes.size() ? tree_.nodes[node].state : tree_.state_size;
-    return {node, static_cast<std::uint32_t>(leaf - tree_.leaves.begin()),
-            static_cast<std::uint32_t>(byte / sizeof(std::uint64_t))};
   }
 
   bool are_equal(NodeIndex one, NodeIndex other) const {
@@ -156,10 +158,18 @@ class EqualChildrenFinder {
 
 }  // namespace
 
+EqualChildren::Place EqualChildren::place_of(const Tree& tree, NodeIndex node) {
+  const auto leaf = std::ranges::lower_bound(tree.leaves, node, {}, &LeafNode::node);
+  const std::size_t byte = node < tree.nodes.size() ? tree.nodes[node].state : tree.state_size;
+  return {node, static_cast<std::uint32_t>(leaf - tree.leaves.begin()),
+          static_cast<std::uint32_t>(byte / sizeof(std::uint64_t))};
+}
+
 Symmetry::Symmetry(const Tree& tree, const LeafModels& models, const std::vector<bool>& watched)
-    : classes_(EqualChildrenFinder(tree, models, watched).find()),
-      first_like_(tree.nodes.size()),
-      moves_(tree.nodes.size()) {
+    : first_like_(tree.nodes.size()), moves_(tree.nodes.size()) {
+  EqualChildrenFinder finder(tree, models, watched);
+  classes_ = finder.find();
+  on_its_own_ = finder.on_their_own();
   std::iota(first_like_.begin(), first_like_.end(), NodeIndex{0});
   std::size_t moving = 0;
   for (const EqualChildren& it : classes_) moving += it.places.size() * it.nodes;

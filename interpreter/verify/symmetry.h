@@ -22,6 +22,7 @@ struct EqualChildren {
   std::uint32_t nodes, leaves, words;  // of each child
   std::vector<Place> places;           // of the children, in the order of the tree
 
+  static Place place_of(const Tree& tree, NodeIndex node);
   bool are_leaves() const { return nodes == 1 && leaves == 1 && words == 0; }
 };
 
@@ -40,6 +41,9 @@ class Symmetry {
   NodeIndex first_like(NodeIndex node) const { return empty() ? node : first_like_[node]; }
   // Whether other nodes can come to its place.
   bool moves(NodeIndex node) const { return !empty() && moves_[node]; }
+  // Whether what is below it shares nothing with the nodes outside of it: it may have others like
+  // it, or be the only one.
+  bool is_on_its_own(NodeIndex node) const { return on_its_own_[node]; }
   // Nodes that may move and keep which child they are at: by how far behind the node it is, which
   // is the same at each place, or by its number. `words` are RunState::bytes.
   enum class Numbered : bool { FromNode, InTree };
@@ -50,7 +54,7 @@ class Symmetry {
  private:
   std::vector<EqualChildren> classes_;
   std::vector<NodeIndex> first_like_;  // of each node
-  std::vector<bool> moves_;
+  std::vector<bool> moves_, on_its_own_;
   std::vector<NodeIndex> keepers_;  // their state begins with the number of a child, or with 0
 };
 

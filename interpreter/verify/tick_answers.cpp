@@ -31,6 +31,7 @@ void TickAnswers::begin_state(const RunState& run, const std::vector<LeafState>&
   digits_.clear();
   at_ = 0;
   is_given_ = false;
+  of_others_ = nullptr;
   equal_children_.clear();
   with_equals_.clear();
   if (children_.empty()) return;
@@ -71,9 +72,18 @@ bool TickAnswers::are_equal(const EqualChildren& it, std::size_t place, const Ru
 
 void TickAnswers::give(std::span<const LeafAnswer> answers) {
   is_given_ = true;
+  of_others_ = nullptr;
   given_.resize(children_of_.size());
   for (std::vector<std::uint32_t>& it : given_) it.clear();
   for (const LeafAnswer& it : answers) given_[it.asker].push_back(it.value);
+}
+
+void TickAnswers::ask_only(std::uint32_t first, std::uint32_t end, OfOthers others) {
+  digits_.clear();
+  is_given_ = false;
+  first_asked_ = first;
+  end_asked_ = end;
+  of_others_ = std::move(others);
 }
 
 void TickAnswers::begin() {
@@ -109,8 +119,11 @@ std::uint32_t TickAnswers::choose(std::uint32_t count, std::uint32_t asker) {
   if (count <= 1) return 0;
   if (repeats_) return repeat(asker);
   if (is_known_) return 0;
+  if (of_others_ != nullptr && (asker < first_asked_ || asker >= end_asked_)) {
+    return of_others_(count, asker);
+  }
   if (at_ == digits_.size()) {
-    is_known_ = looks_ && !is_given_ && is_known_before_(asker);
+    is_known_ = looks_ && !is_given_ && of_others_ == nullptr && is_known_before_(asker);
     if (is_known_) return 0;
     digits_.push_back({is_given_ ? given(asker, count) : least(asker), count, asker});
     note(digits_.back());
@@ -135,6 +148,7 @@ std::uint32_t TickAnswers::repeat(std::uint32_t asker) {
 // As long as a child has answered as the one before it, it is asked the same.
 std::uint32_t TickAnswers::least(std::uint32_t asker) const {
   std::uint32_t least = 0;
+  if (!has_ties()) return least;
   for (const std::uint32_t it : children_of_[asker]) {
     const Child& child = children_[it];
     if (!child.has_equal || !child.is_tied) continue;
@@ -147,7 +161,7 @@ std::uint32_t TickAnswers::least(std::uint32_t asker) const {
 }
 
 void TickAnswers::note(Question& digit) {
-  if (with_equals_.empty() || is_given_) return;
+  if (!has_ties()) return;
   digit.was_tied = 0;
   std::uint32_t bit = 1;
   for (const std::uint32_t it : children_of_[digit.asker]) {
@@ -165,7 +179,7 @@ void TickAnswers::note(Question& digit) {
 
 // Those after it are taken back before it.
 void TickAnswers::undo(const Question& digit) {
-  if (with_equals_.empty() || is_given_) return;
+  if (!has_ties()) return;
   std::uint32_t bit = 1;
   for (const std::uint32_t it : children_of_[digit.asker]) {
     Child& child = children_[it];

@@ -41,6 +41,11 @@ class TickAnswers final : public Answers {
   // In place of combinations: those of each asker in their order.
   void give(std::span<const LeafAnswer> answers);
 
+  // All combinations of a state, of the leaves from `first` until `end`. The others give what
+  // `others` says.
+  using OfOthers = std::function<std::uint32_t(std::uint32_t count, std::uint32_t asker)>;
+  void ask_only(std::uint32_t first, std::uint32_t end, OfOthers others);
+
   // Before each tick.
   void begin();
   // How many of the first answers of the tick before it come again.
@@ -96,6 +101,8 @@ class TickAnswers final : public Answers {
   };
   bool are_equal(const EqualChildren& it, std::size_t place, const RunState& run,
                  const std::vector<LeafState>& leaves) const;
+  // A child gives what the one before it leaves it.
+  bool has_ties() const { return !with_equals_.empty() && !is_given_ && of_others_ == nullptr; }
   std::uint32_t least(std::uint32_t asker) const;
   std::uint32_t repeat(std::uint32_t asker);
   void note(Question& digit);
@@ -113,6 +120,8 @@ class TickAnswers final : public Answers {
   std::size_t at_ = 0;
   std::size_t repeats_from_ = 0;
   bool is_given_ = false, repeats_ = false;
+  std::uint32_t first_asked_ = 0, end_asked_ = 0;
+  OfOthers of_others_;  // null: all are asked
   bool looks_ = false, is_known_ = false;
   IsKnown is_known_before_;
   std::vector<LeafAnswer> repeated_;

@@ -18,6 +18,9 @@
 
 namespace lockstep::host {
 
+// Nothing is beside the tree: that would look at nodes in a way of its own.
+bool is_plain(const Tree& tree);
+
 class TickPoints {
  public:
   // `watched`: of each node, whether a property looks at it. Points are looked at from so many

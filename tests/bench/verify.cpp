@@ -130,9 +130,11 @@ int main(int argc, char** argv) {
   add("conditions/40", free_conditions(40));
   add("retries/20", parallel_of("<Retry attempts=\"2\"><BenchAdvance/></Retry>", 20), "",
       Equal::Once);
-  add("sequences/12",
-      parallel_of("<Sequence memory=\"true\"><BenchAdvance/><BenchAdvance/></Sequence>", 12), "",
-      Equal::Once);
+  for (const int count : {12, 40}) {
+    add(fmt::format("sequences/{}", count).c_str(),
+        parallel_of("<Sequence memory=\"true\"><BenchAdvance/><BenchAdvance/></Sequence>", count),
+        "", Equal::Once);
+  }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -125,15 +125,6 @@ class RandomLeaves {
   std::mt19937_64 random_;
 };
 
-// What must be the same.
-std::string said_by(const Verified& it) {
-  std::string said = it.findings() + '\n';
-  for (const VerdictLine& line : it.verdict.facts) {
-    if (line.name != "alike") said += line.name + ": " + line.text + '\n';
-  }
-  return said;
-}
-
 // The run is one of the tree: each tick begins where the one before it ended; a cycle comes back to
 // where it began, and is fair unless it is in a trap. A child that starves is held in all of it.
 void check_run(const Verified& it, const Finding& finding) {

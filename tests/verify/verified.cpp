@@ -76,4 +76,12 @@ std::string Verified::script(std::string_view name) const {
   return to_text(scripts);
 }
 
+std::string said_by(const Verified& it) {
+  std::string said = it.findings() + '\n';
+  for (const VerdictLine& line : it.verdict.facts) {
+    if (line.name != "alike") said += line.name + ": " + line.text + '\n';
+  }
+  return said;
+}
+
 }  // namespace lockstep::host::test

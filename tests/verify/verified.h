@@ -32,4 +32,7 @@ struct Verified {
   Verdict verdict;
 };
 
+// What must be the same, however a search looks.
+std::string said_by(const Verified& it);
+
 }  // namespace lockstep::host::test
