@@ -362,9 +362,15 @@ bool lockstep_run_answer(lockstep_run* run, uint32_t node, const char* answer, c
     }
     Ticker& ticker = run->run.ticker();
     const auto place = static_cast<std::uint32_t>(option - question->options.begin());
-    return ticker.answer(node, {place, answer, who == nullptr ? "program" : who},
-                         ticker.tick_number()) ||
-           fail("the node asks nothing");
+    if (!ticker.answer(node, {place, answer, who == nullptr ? "program" : who},
+                       ticker.tick_number())) {
+      return fail("the node asks nothing");
+    }
+    if (run->kept != nullptr) {
+      const InEngine scope(lock_of(run));
+      run->kept->between_ticks(ticker);
+    }
+    return true;
   });
 }
 

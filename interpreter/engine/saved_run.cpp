@@ -11,6 +11,7 @@ void Ticker::save(SavedRun& into) const {
   into.named = ports_.names().made();
   into.parameters = parameters_.state();
   into.held_leaves = held_leaves_;
+  into.answers = answers_;
   into.leaves.clear();
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     const LeafSlot& leaf = leaves_[i];
@@ -22,7 +23,8 @@ void Ticker::save(SavedRun& into) const {
 }
 
 RunParts Ticker::parts() const {
-  RunParts parts{state_, board_.entries, ports_.names().made(), parameters_.state(), held_leaves_};
+  RunParts parts{state_,       board_.entries, ports_.names().made(), parameters_.state(),
+                 held_leaves_, answers_};
   for (const NodeIndex node : state_.failed_leaves) {
     const std::uint32_t place = nodes_[node].params;
     if (leaves_[place].failed()) parts.failed.push_back(place);
@@ -31,7 +33,7 @@ RunParts Ticker::parts() const {
 }
 
 RunParts parts_of(const SavedRun& run) {
-  RunParts parts{run.run, run.entries, run.named, run.parameters, run.held_leaves};
+  RunParts parts{run.run, run.entries, run.named, run.parameters, run.held_leaves, run.answers};
   for (std::uint32_t place = 0; place < run.leaves.size(); ++place) {
     if (run.leaves[place].failed) parts.failed.push_back(place);
   }
@@ -75,6 +77,7 @@ void Ticker::restore(const SavedRun& from) {
   ports_.names().restore(from.named);
   parameters_.restore(from.parameters);
   held_leaves_ = from.held_leaves;
+  take(answers_, from.answers);
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     const SlotState& leaf = from.leaves[i];
     leaves_[i].set_started(leaf.started);

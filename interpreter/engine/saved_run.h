@@ -11,6 +11,7 @@
 #include "engine/held_leaves.h"
 #include "engine/named_entries.h"
 #include "engine/run_state.h"
+#include "trace/answer.h"
 
 namespace lockstep::host {
 
@@ -30,6 +31,7 @@ struct SavedRun {
   BoundParameters::State parameters;
   HeldLeaves held_leaves{0};
   std::vector<SlotState> leaves;
+  std::vector<GivenAnswer> answers;  // that the next tick takes
 };
 
 // The same where it is, without a copy: valid as long as nothing changes. The flags of leaves
@@ -40,6 +42,7 @@ struct RunParts {
   const NamedEntries::Made& named;
   const BoundParameters::State& parameters;
   const HeldLeaves& held_leaves;
+  const std::vector<GivenAnswer>& answers;
   std::vector<std::uint32_t> failed = {};  // in Tree::leaves
 };
 RunParts parts_of(const SavedRun& run);

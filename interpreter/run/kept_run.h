@@ -62,6 +62,7 @@ class KeptRun {
   // Around the ticks of who ticks by himself; the loop has the writer.
   void before_tick(Ticker& ticker) { ticker.set_durable(writer_->durable()); }
   void after_tick(Ticker& ticker, Status status);
+  void between_ticks(const Ticker& ticker) { writer_->between_ticks(ticker, false); }
   // All was halted between two ticks: nothing goes on from here.
   void halted(Ticker& ticker) { writer_->after_tick(ticker, ticks_, true); }
   void end(std::uint64_t ticks, Nanoseconds last) {

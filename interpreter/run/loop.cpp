@@ -113,9 +113,13 @@ class Loop {
     return is_real_ || keep_pace();
   }
 
-  void take_orders() {
+  void take_orders(bool stands = false) {
     const InEngine scope(run_.blackboard().lock.get());
-    options_.control->take_orders(run_.ticker(), run_.blackboard());
+    const bool has_changed = options_.control->take_orders(run_.ticker(), run_.blackboard());
+    if (has_changed && options_.checkpoints != nullptr) {
+      options_.checkpoints->between_ticks(run_.ticker(), stands);
+    }
+    options_.control->report_effects();
   }
 
   // The run's time stands still until it goes on, at the time of the next tick. So the leaves
@@ -131,7 +135,7 @@ class Loop {
     bool goes_on = may_tick() && !run_.ticker().faulted();
     while (goes_on && options_.control->is_paused()) {
       options_.control->wait(kLongestSleep);
-      take_orders();
+      take_orders(true);
       if (is_real_) run_.look_at_processes();
       goes_on = may_tick() && !run_.ticker().faulted();
     }

@@ -7,13 +7,46 @@
 
 namespace lockstep::host {
 
-void RunControl::give(Order order) {
+std::uint64_t RunControl::give(Order order) {
+  std::uint64_t number = 0;
   {
     const Lock lock(mutex_);
+    number = ++given_;
     new_.push_back(std::move(order));
     has_new_.store(true, std::memory_order_release);
   }
   bell_.ring();
+  return number;
+}
+
+std::optional<bool> RunControl::effect_of(std::uint64_t number) const {
+  const Lock lock(mutex_);
+  if (number > obeyed_) return has_ended() ? std::optional(false) : std::nullopt;
+  return std::ranges::find(vain_, number) == vain_.end();
+}
+
+void RunControl::wait_for_effects(Nanoseconds longest) {
+  const std::uint32_t seen = effects_.rung();
+  {
+    const Lock lock(mutex_);
+    if (obeyed_ == given_ || has_ended()) return;
+  }
+  effects_.wait(seen, longest);
+}
+
+void RunControl::report_effects() {
+  {
+    const Lock lock(mutex_);
+    if (std::exchange(obeyed_, taken_) == taken_) return;
+  }
+  effects_.ring();
+}
+
+void RunControl::end() {
+  is_paused_ = false;
+  is_attended_ = true;
+  has_ended_.store(true, std::memory_order_release);
+  effects_.ring();
 }
 
 RunControl::State RunControl::state() const {
@@ -27,67 +60,87 @@ void RunControl::need_attendance(Nanoseconds longest) {
   state_.is_attended = true;
 }
 
-void RunControl::take_orders(Ticker& ticker, Blackboard& blackboard) {
-  obey_new(ticker, blackboard);
-  if (!longest_alone_) return;
+bool RunControl::take_orders(Ticker& ticker, Blackboard& blackboard) {
+  const bool has_changed = obey_new(ticker, blackboard);
+  if (!longest_alone_) return has_changed;
   const Nanoseconds now = monotonic_now();
   if (!attended_) attended_ = now;
-  if (std::exchange(is_attended_, now - *attended_ < *longest_alone_) == is_attended_) return;
-  const Lock lock(mutex_);
-  state_.is_attended = is_attended_;
+  const bool was_attended = is_attended_;
+  is_attended_ = now - *attended_ < *longest_alone_;
+  if (was_attended != is_attended_) {
+    const Lock lock(mutex_);
+    state_.is_attended = is_attended_;
+  }
+  return has_changed;
 }
 
-void RunControl::obey_new(Ticker& ticker, Blackboard& blackboard) {
-  if (!has_new_.load(std::memory_order_acquire)) return;
+bool RunControl::obey_new(Ticker& ticker, Blackboard& blackboard) {
+  if (!has_new_.load(std::memory_order_acquire)) return false;
   std::vector<Order> orders;
   {
     const Lock lock(mutex_);
     orders.swap(new_);
     has_new_.store(false, std::memory_order_release);
   }
-  for (const Order& order : orders) obey(order, ticker, blackboard);
+  bool has_changed = false;
+  std::vector<std::uint64_t> vain;
+  for (const Order& order : orders) {
+    ++taken_;
+    const Effect effect = obey(order, ticker, blackboard);
+    has_changed |= effect == Effect::OnState;
+    if (effect != Effect::None) continue;
+    vain.push_back(taken_);
+    tell_vain_(order);
+  }
   const Lock lock(mutex_);
   state_.speed = speed_;
+  constexpr std::size_t kMost = 1000;
+  vain_.insert(vain_.end(), vain.begin(), vain.end());
+  while (vain_.size() > kMost) vain_.pop_front();
+  return has_changed;
 }
 
-void RunControl::obey(const Order& order, Ticker& ticker, Blackboard& blackboard) {
+RunControl::Effect RunControl::obey(const Order& order, Ticker& ticker, Blackboard& blackboard) {
   switch (order.what) {
     case Order::What::Pause:
       pause(false);
-      return;
+      break;
     case Order::What::Resume:
       is_paused_ = false;
       ticks_left_.reset();
-      return;
+      break;
     case Order::What::Step:
       is_paused_ = false;
       ticks_left_ = ticks_left_.value_or(0) + order.ticks;
-      return;
+      break;
     case Order::What::Halt:
       is_halted_ = true;
-      return;
+      break;
     case Order::What::Speed:
       speed_ = order.speed;
-      return;
+      break;
     case Order::What::Set:
-      return set(blackboard.entries[order.slot], order);
+      set(blackboard.entries[order.slot], order);
+      return Effect::OnState;
     case Order::What::Attend:
       attended_ = monotonic_now();
-      return;
+      break;
     case Order::What::Answer:
-      return answer(order, ticker);
+      return answer(order, ticker) ? Effect::OnState : Effect::None;
     case Order::What::Break:
-      if (order.is_on) return breakpoints_.set(ticker, order.breakpoint);
-      return breakpoints_.remove(order.breakpoint);
+      order.is_on ? breakpoints_.set(ticker, order.breakpoint)
+                  : breakpoints_.remove(order.breakpoint);
+      break;
   }
+  return Effect::OnLoop;
 }
 
 // What came with a question that the person has not seen yet is no answer to it.
-void RunControl::answer(const Order& order, Ticker& ticker) {
+bool RunControl::answer(const Order& order, Ticker& ticker) {
   const std::uint32_t last = ticker.tick_number();
   const std::uint64_t seen = order.seen ? std::min<std::uint64_t>(*order.seen + 1, last) : last;
-  ticker.answer(order.node, {order.option, order.text, order.who},
-                static_cast<std::uint32_t>(seen));
+  return ticker.answer(order.node, {order.option, order.text, order.who},
+                       static_cast<std::uint32_t>(seen));
 }
 
 // An entry without a type keeps none, as one of a tree for BehaviorTree.CPP may.

@@ -4,7 +4,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/blackboard/entry.h"
@@ -36,7 +39,14 @@ class RunControl {
 
   // --- for any thread ----------------------------------------------------------------------------
 
-  void give(Order order);
+  // Returns its number.
+  std::uint64_t give(Order order);
+  // What has come of it: whether it had an effect. None: the loop has not obeyed it yet.
+  std::optional<bool> effect_of(std::uint64_t number) const;
+  // Until the loop has obeyed more, at most so long. One thread at a time.
+  void wait_for_effects(Nanoseconds longest);
+  // The loop has ended, and obeys no more.
+  bool has_ended() const { return has_ended_.load(std::memory_order_acquire); }
 
   struct State {
     bool is_paused = false;
@@ -53,11 +63,18 @@ class RunControl {
 
   // Before the run: it stands while nobody has attended for so long, by the wall clock.
   void need_attendance(Nanoseconds longest);
+  // Likewise: who is told, on the thread of the loop, of an answer for which nobody waits.
+  void tell_vain_answers(std::function<void(const Order& order)> tell) {
+    tell_vain_ = std::move(tell);
+  }
 
   // --- for the loop ------------------------------------------------------------------------------
 
-  // Without new orders, one atomic load; where somebody must attend, a look at the clock.
-  void take_orders(Ticker& ticker, Blackboard& blackboard);
+  // Without new orders, one atomic load; where somebody must attend, a look at the clock. True if
+  // they have changed what a checkpoint has.
+  bool take_orders(Ticker& ticker, Blackboard& blackboard);
+  // After that, and once it is kept: for those who wait for effects.
+  void report_effects();
   // True while the next tick must not come yet.
   bool is_paused() const { return is_paused_ || !is_attended_; }
   bool is_attended() const { return is_attended_; }
@@ -74,25 +91,33 @@ class RunControl {
   // The run stands, or goes on: for state(). Until then a pause is only on its way.
   void report_standing(bool stands);
   // The run ends: it does not wait for anybody, whatever has paused it.
-  void end() { is_paused_ = false, is_attended_ = true; }
+  void end();
   // Returns when there are orders, after `longest`, or when a signal comes.
   void wait(Nanoseconds longest);
 
  private:
-  void obey_new(Ticker& ticker, Blackboard& blackboard);
-  void obey(const Order& order, Ticker& ticker, Blackboard& blackboard);
+  enum class Effect : std::uint8_t { OnLoop, OnState, None };
+
+  bool obey_new(Ticker& ticker, Blackboard& blackboard);
+  Effect obey(const Order& order, Ticker& ticker, Blackboard& blackboard);
   void pause(bool is_stepping);
   static void set(Entry& entry, const Order& order);
-  static void answer(const Order& order, Ticker& ticker);
+  static bool answer(const Order& order, Ticker& ticker);
 
   std::atomic<bool> has_new_{false};
   mutable Mutex mutex_;
   std::vector<Order> new_ LOCKSTEP_GUARDED_BY(mutex_);
   State state_ LOCKSTEP_GUARDED_BY(mutex_);
+  std::uint64_t given_ LOCKSTEP_GUARDED_BY(mutex_) = 0;         // orders
+  std::uint64_t obeyed_ LOCKSTEP_GUARDED_BY(mutex_) = 0;        // of them
+  std::deque<std::uint64_t> vain_ LOCKSTEP_GUARDED_BY(mutex_);  // the last ones without an effect
+  std::atomic<bool> has_ended_{false};
   std::atomic<std::uint64_t> pauses_{0};
-  Bell bell_;
+  Bell bell_, effects_;
 
   // The loop's.
+  std::function<void(const Order& order)> tell_vain_ = [](const Order&) {};
+  std::uint64_t taken_ = 0;  // orders
   bool is_paused_ = false, is_halted_ = false;
   std::optional<Nanoseconds> longest_alone_ = {};  // none: nobody needs to attend
   std::optional<Nanoseconds> attended_ = {};       // when somebody did, or the run began

@@ -137,6 +137,18 @@ TEST_CASE("a program that resumes a run gets its time, its ticks and what its le
   CHECK_FALSE(second.not_kept());
 }
 
+TEST_CASE("an answer that a program gives between two ticks outlasts a cut") {
+  const KeptRuns runs("<Ask text=\"Well?\"/>");
+  runtime::Run first = runs.run();
+  CHECK_FALSE(first.keep(runs.file()));
+  CHECK(first.tick(0) == Status::Running);
+  first.answer(0, "no");
+  const std::string cut = runs.cut();
+  runtime::Run second = runs.run();
+  REQUIRE(second.keep(cut));
+  CHECK(second.tick(0.1) == Status::Failure);
+}
+
 TEST_CASE("a run that is given its times is resumed at the last of them") {
   const KeptRuns runs("<Count/>");
   runtime::Run first = runs.run();

@@ -1,6 +1,8 @@
 // A run that is controlled from a browser, from outside.
 #include <catch2/catch.hpp>
 
+#include <memory>
+
 #include "support/json.h"
 #include "web/client.h"
 
@@ -18,7 +20,11 @@ const std::string kPull = tree_text(
 class Controlled {
  public:
   explicit Controlled(const std::string& tree, std::vector<std::string> more = {})
-      : run_(with(directory_.file("tree.xml", tree), std::move(more))), events_(run_.port()) {
+      : Controlled(std::make_unique<TemporaryDirectory>(), tree, std::move(more)) {}
+  // Of a file that stays.
+  Controlled(const TemporaryDirectory& directory, const std::string& tree,
+             std::vector<std::string> more)
+      : run_(with(directory.file("tree.xml", tree), std::move(more))), events_(run_.port()) {
     events_.send(get_text(run_.port(), "/events", token()));
   }
 
@@ -36,7 +42,13 @@ class Controlled {
     more.insert(more.begin(), {tree, "--monitor", "--monitor-control", "--monitor-paused"});
     return more;
   }
-  TemporaryDirectory directory_;
+  Controlled(std::unique_ptr<TemporaryDirectory> directory, const std::string& tree,
+             std::vector<std::string> more)
+      : Controlled(*directory, tree, std::move(more)) {
+    directory_ = std::move(directory);
+  }
+
+  std::unique_ptr<TemporaryDirectory> directory_;  // null: another one's
   MonitoredRun run_;
   Client events_;
 };
@@ -136,6 +148,72 @@ TEST_CASE("an entry is set between ticks, if its type takes the value") {
   it.order({{"do", "resume"}});
   it.events().finish();
   CHECK(it.run().process().finish().code == 0);
+}
+
+TEST_CASE("an answer and a value that a paused run was given outlast a cut") {
+  for (const char* clock : {"virtual", "wall"}) {
+    CAPTURE(clock);
+    const TemporaryDirectory directory;
+    const std::string tree = tree_text(
+        "<Sequence memory='true'><Script code='n := 1'/><Ask name='sure' text='Sure?' "
+        "answer='{a}'/><Check code=\"n == 2 &amp;&amp; a == 'no'\"/></Sequence>");
+    const std::vector<std::string> options{"--clock",
+                                           clock,
+                                           "--checkpoint",
+                                           directory.path("kept"),
+                                           "--resume",
+                                           "--record",
+                                           directory.path("run.jsonl")};
+    {
+      Controlled it(directory, tree, options);
+      it.order({{"do", "step"}, {"ticks", 5}});
+      it.wait_for_tick(4);
+      CHECK(it.order({{"do", "answer"}, {"answer", "no"}, {"by", "maria"}}).status == 204);
+      CHECK(it.order({{"do", "set"}, {"entry", "n"}, {"value", 2}}).status == 204);
+      it.run().process().end_by(SIGKILL);
+    }
+    Controlled it(directory, tree, options);
+    it.order({{"do", "step"}, {"ticks", 3}});
+    it.events().finish();
+    const Outcome outcome = it.run().process().finish();
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, "resumed after"));
+    const Outcome events = run_lockstep({"log", "events", directory.path("run.resumed-1.jsonl"),
+                                         "--event", "ask", "--event", "answer"});
+    REQUIRE(lines(events.out).size() == 1);  // it is not asked again
+    CHECK(contains(events.out, "no (by page: maria)"));
+    CHECK(contains(events.out, "tick 5 "));
+  }
+}
+
+TEST_CASE("an order that can have no effect is refused, and an answer that comes too late") {
+  Controlled it(tree_text("<Sequence memory='true'><Wait seconds='0.02'/><Ask name='sure' "
+                          "text='Sure?'/><Wait seconds='1000'/></Sequence>"),
+                {"--clock", "virtual"});
+  const auto refused = [&](const json& order) {
+    const Response response = it.order(order);
+    CHECK(response.status == 409);
+    return parse_json(response.body)["error"].get<std::string>();
+  };
+  const json yes{{"do", "answer"}, {"answer", "yes"}};
+  const std::string none = "'Main/Sequence/sure' waits for no such answer";
+  it.order({{"do", "step"}});
+  it.wait_for_tick(0);
+  CHECK(refused(yes) == none);  // it does not ask yet
+  it.order({{"do", "step"}, {"ticks", 4}});
+  it.wait_for_tick(4);
+  json unseen = yes;
+  unseen["seen"] = 0;
+  CHECK(refused(unseen) == none);
+  CHECK(it.order(yes).status == 204);
+  CHECK(refused(yes) == none);  // it has one
+  it.order({{"do", "step"}});
+  it.wait_for_tick(5);
+  CHECK(refused(yes) == none);
+  it.order({{"do", "halt"}});
+  it.events().finish();
+  CHECK(contains(it.run().process().finish().err,
+                 "the answer 'yes' (by page) has no effect: Main/Sequence/sure waits for none"));
 }
 
 TEST_CASE("a paused run ends at a signal within a second") {

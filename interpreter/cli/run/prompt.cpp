@@ -266,12 +266,13 @@ void Prompt::ask(const OpenQuestion& question) {
     }
     if (option != options.end()) {
       answered_ = question;
-      return control_.give({.what = What::Answer,
-                            .node = question.node,
-                            .option = static_cast<std::uint32_t>(option - options.begin()),
-                            .seen = question.tick,
-                            .text = *option,
-                            .who = "terminal"});
+      control_.give({.what = What::Answer,
+                     .node = question.node,
+                     .option = static_cast<std::uint32_t>(option - options.begin()),
+                     .seen = question.tick,
+                     .text = *option,
+                     .who = "terminal"});
+      return;
     }
     if (!word.empty()) say(fmt::format("'{}' is no answer\n", printable(word)));
   }
@@ -301,7 +302,8 @@ void Prompt::ask(const Picture& picture) {
       if (picture.is_only_unattended) return;
       // No command can come any more.
       if (is_new) say("stdin has ended: the run continues\n");
-      return control_.give({.what = What::Resume});
+      control_.give({.what = What::Resume});
+      return;
     }
   }
 }

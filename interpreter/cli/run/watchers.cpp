@@ -101,6 +101,7 @@ Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const R
   if (options.monitor_control || options.groot2_control || !places.empty() || needs_people) {
     control_.emplace();
   }
+  if (control_ && asks_people(shape)) tell_vain_answers(note);
   if (options.attended) {
     control_->need_attendance(from_seconds(*options.attended));
     attendance_.emplace(*control_, *options.attended, std::move(note));
@@ -132,6 +133,13 @@ Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const R
     groot_ = (*sockets.groot)
                  ->show(shape, options.groot2_control ? control() : nullptr, std::move(print));
   }
+}
+
+void Watchers::tell_vain_answers(const Print& note) {
+  control_->tell_vain_answers([this, note](const RunControl::Order& order) {
+    note(fmt::format("the answer '{}' (by {}) has no effect: {} waits for none",
+                     printable(order.text), order.who, printable(shape_.nodes[order.node].path)));
+  });
 }
 
 bool has_typist(const RunCommandOptions& options, const Shape& shape) {

@@ -67,6 +67,7 @@ class Watchers {
     bool is_alone_ = false;
   };
 
+  void tell_vain_answers(const Print& note);
   Result<std::string> answer_request(const std::string& request);
   std::string list_questions() const;
 

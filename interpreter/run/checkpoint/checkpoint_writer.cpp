@@ -54,6 +54,7 @@ bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts, std::
   running_.reserve(ticker.tree().nodes.size());
   note_results(ticker);
   Snapshot first;
+  take_leaves(ticker);
   const bool has_state = fill(first, ticker);
   if (!has_state && !ticker.faulted()) return false;
   std::string bytes;
@@ -89,10 +90,14 @@ void CheckpointWriter::note_results(const Ticker& ticker) {
   }
 }
 
+void CheckpointWriter::take_leaves(Ticker& ticker) {
+  head_.time = ticker.now();
+  if (head_.kind == Checkpoint::Kind::Unfinished) ticker.save_leaves(leaves_);
+}
+
 // False: the run has no state that can be kept.
-bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
+bool CheckpointWriter::fill(Snapshot& snapshot, const Ticker& ticker) {
   const bool goes_on = head_.kind == Checkpoint::Kind::Unfinished;
-  if (goes_on) ticker.save_leaves(leaves_);
   if (goes_on && ticker.faulted()) return false;
   const RunParts parts = ticker.parts();
   if (const auto entry = goes_on ? entry_with_object(parts, ticker.tree()) : std::nullopt)
@@ -100,7 +105,6 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
     lose(fmt::format("the entry '{}' holds an object, which no checkpoint has", *entry));
     return false;
   }
-  head_.time = ticker.now();
   head_.written = wall_time();
   if (options_.team != nullptr) options_.team->keep_rounds(head_.rounds);
   if (options_.properties != nullptr) options_.properties->keep(head_.properties);
@@ -116,15 +120,29 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
 }
 
 void CheckpointWriter::after_tick(Ticker& ticker, std::uint64_t ticks, bool is_over) {
-  if (!lost_.empty()) return;
-  if (failed_.load(std::memory_order_acquire)) return lose(file_->error());
+  if (is_lost()) return;
   head_.ticks = ticks;
   head_.kind = is_over ? Checkpoint::Kind::Ended : Checkpoint::Kind::Unfinished;
   note_results(ticker);
   if (is_over) head_.resumes = 0;
+  take_leaves(ticker);
+  publish(ticker, !options_.real_time);
+}
+
+void CheckpointWriter::between_ticks(const Ticker& ticker, bool waits) {
+  if (is_lost() || head_.kind != Checkpoint::Kind::Unfinished) return;
+  publish(ticker, waits || !options_.real_time);
+}
+
+bool CheckpointWriter::is_lost() {
+  if (lost_.empty() && failed_.load(std::memory_order_acquire)) lose(file_->error());
+  return !lost_.empty();
+}
+
+void CheckpointWriter::publish(const Ticker& ticker, bool waits) {
   if (!fill(snapshots_.back(), ticker)) return;
   snapshots_.publish();
-  if (options_.real_time) return;
+  if (!waits) return;
   flush();
   if (failed_.load(std::memory_order_acquire)) lose(file_->error());
 }
@@ -180,7 +198,7 @@ void CheckpointWriter::flush() {
   }
 }
 
-// Rung only where time stands still: else it looks twice a tick, but not too often.
+// Rung only by who waits: else it looks twice a tick, but not too often.
 void CheckpointWriter::write_until_stopped() {
   const Nanoseconds pause = options_.real_time ? pause_of(options_.period) : kSyncOfTime;
   std::string lasting;     // of the last one that was written
@@ -210,7 +228,7 @@ void CheckpointWriter::write_until_stopped() {
     }
     if (is_good) written_.store(snapshots_.front().number, std::memory_order_release);
     if (!is_good) failed_.store(true, std::memory_order_release);
-    if (!options_.real_time) done_.ring();
+    done_.ring();
     if (stops || !is_good) return;
     work_.wait(seen, pause);
   }

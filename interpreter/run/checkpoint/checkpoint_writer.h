@@ -53,6 +53,9 @@ class CheckpointWriter {
   // After a tick, so many in all. `is_over`: the root has a result, or all was halted, and nothing
   // goes on from here; but the next tick may begin the tree again.
   void after_tick(Ticker& ticker, std::uint64_t ticks, bool is_over = false);
+  // Between two ticks, when somebody has changed the run: the checkpoint of the last tick again,
+  // with that. `waits`: until it is written, also where time passes by itself.
+  void between_ticks(const Ticker& ticker, bool waits);
   // The run has ended in order, after so many ticks in all; `time` is that of the last one.
   void end(std::uint64_t ticks, Nanoseconds time);
 
@@ -74,7 +77,10 @@ class CheckpointWriter {
     std::uint32_t commit = 0;  // the last one in which an action waits for the disk
   };
   void note_results(const Ticker& ticker);
-  bool fill(Snapshot& snapshot, Ticker& ticker);
+  void take_leaves(Ticker& ticker);
+  bool fill(Snapshot& snapshot, const Ticker& ticker);
+  bool is_lost();
+  void publish(const Ticker& ticker, bool waits);
   void lose(const std::string& why);
   void flush();
   void write_until_stopped();

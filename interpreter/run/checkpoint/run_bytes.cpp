@@ -21,6 +21,10 @@ void fields(auto& it, Is<Fault> auto& fault) {
   it(fault.node, fault.message, fault.in_last_halt);
 }
 
+void fields(auto& it, Is<GivenAnswer> auto& given) {
+  it(given.node, given.number, given.answer, given.who);
+}
+
 void fields(auto& it, Is<OutOfRange> auto& found) {
   it(found.node, found.reported);
 }
@@ -107,7 +111,7 @@ void fields(auto& it, Is<RunState> auto& run) {
 
 // Of a SavedRun, or of RunParts.
 void lasting(auto& it, auto& run, auto& failed) {
-  it(run.run, run.entries, run.named, run.parameters, run.held_leaves, failed);
+  it(run.run, run.entries, run.named, run.parameters, run.held_leaves, run.answers, failed);
 }
 
 namespace {
@@ -214,7 +218,8 @@ bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into, LeafBy
   if ((!leaves.empty() && leaves.size() != tree.leaves.size()) || !reader.is_whole() ||
       !fits(into.run, tree) || !fits(into.parameters, tree) ||
       !fits(into.held_leaves, tree.nodes.size()) || !fits(into.entries, tree) ||
-      into.named.size() != tree.boards.size() || !are_nodes(failed, tree.leaves.size())) {
+      into.named.size() != tree.boards.size() || !are_nodes(failed, tree.leaves.size()) ||
+      !are_nodes(into.answers, tree.nodes.size())) {
     return false;
   }
   give_flags(tree, failed, into);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
+#include "base/core/diagnostics.h"
 #include "base/json/json.h"
 #include "record/live/history.h"
 #include "record/live/orders.h"
@@ -23,6 +25,9 @@ constexpr std::chrono::milliseconds kPatience{500};
 
 // How long a page that is loaded again may take to come back.
 constexpr std::chrono::seconds kReload{3};
+
+// How long a request waits for the run to obey its order.
+constexpr std::chrono::milliseconds kObeyed{500};
 
 // How often those that wait look whether it is time for something.
 constexpr std::chrono::milliseconds kLook{100};
@@ -247,15 +252,39 @@ WebAnswer Monitor::page() const {
 }
 
 WebAnswer Monitor::obey(const std::string& text) {
+  using What = RunControl::Order::What;
   if (control_ == nullptr) {
     return refusal(403, {"this monitor only shows the run", "start it with --monitor-control"});
   }
   auto order = read_order(shape_, is_real_time_, text);
   if (!order) return refusal(400, order.error());
   order->who = order->who.empty() ? "page" : "page: " + order->who;
-  if (order->what == RunControl::Order::What::Break) status_.note(order->breakpoint, order->is_on);
-  control_->give(std::move(*order));
-  return {.status = 204};
+  if (order->what == What::Break) status_.note(order->breakpoint, order->is_on);
+  const NodeIndex node = order->node;
+  // The others say themselves what comes of them, or nothing can come between.
+  const bool changes_state = order->what == What::Set || order->what == What::Answer;
+  if (control_->has_ended()) return refusal(409, {"the run has ended"});
+  const std::uint64_t number = control_->give(std::move(*order));
+  if (!changes_state) return {.status = 204};
+  const auto effect = effect_of(number);
+  if (effect.value_or(true)) return {.status = effect ? 204u : 202u};
+  if (control_->has_ended()) return refusal(409, {"the run has ended"});
+  return refusal(409,
+                 {fmt::format("'{}' waits for no such answer", printable(shape_.nodes[node].path)),
+                  "its question is over, has an answer already, or is newer than 'seen'"});
+}
+
+// None: the run has not obeyed it in time, as in a long tick. Where time stands still, the run may
+// wait for this thread to take its lines.
+std::optional<bool> Monitor::effect_of(std::uint64_t order) {
+  const Nanoseconds until = monotonic_now() + kObeyed;
+  while (true) {
+    const auto effect = control_->effect_of(order);
+    const Nanoseconds left = until - monotonic_now();
+    if (effect || left <= Nanoseconds(0)) return effect;
+    take_lines();
+    control_->wait_for_effects(std::min<Nanoseconds>(left, kNap));
+  }
 }
 
 }  // namespace lockstep::host

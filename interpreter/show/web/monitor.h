@@ -82,6 +82,7 @@ class Monitor final : public Observer, private Answering {
   WebAnswer page() const;
   std::unique_ptr<Stream> history();
   WebAnswer obey(const std::string& order);
+  std::optional<bool> effect_of(std::uint64_t order);
 
   const Shape shape_;
   const std::string recording_;
