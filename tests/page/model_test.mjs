@@ -40,6 +40,15 @@ test("a state stands until a line changes it, also over ticks that have no line"
   assert.deepEqual(model.waitOf(late, 2).for, [1]);
 });
 
+test("a question that was held at a cut is none until its node asks again", () => {
+  const run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, nodes: [{ index: 0, path: "q", kind: "Ask", name: "q", parent: null, options: ["yes", "no"] }] }));
+  run.feed(JSON.stringify({ tick: 5, time_s: 0.5, nodes: [running(0, 0, 1)], whole: [] }));
+  run.feed(JSON.stringify({ tick: 6, time_s: 0.6, nodes: [running(0, 0)], reasons: [[0, "Well?"]] }));
+  const asked = [0, 1].map((line) => model.questionsOf(new model.Moment(run, line)).map((it) => it.text));
+  assert.deepEqual(asked, [[], ["Well?"]]);
+});
+
 test("in the recording of a team, a tick of one robot is not between two ticks of another one", () => {
   const run = new model.Run();
   run.feed(JSON.stringify({ ...HEADER, nodes: [

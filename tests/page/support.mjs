@@ -33,7 +33,7 @@ export function lockstep(...args) {
 export async function loadModel() {
   const { outputFiles } = await require("esbuild").build({
     stdin: {
-      contents: ["model/run", "model/moment", "model/events", "model/spread", "model/numbers", "model/waiting", "model/thin", "model/lanes", "model/words", "store/span", "view/chart/data"]
+      contents: ["model/run", "model/moment", "model/events", "model/spread", "model/numbers", "model/questions", "model/waiting", "model/thin", "model/lanes", "model/words", "store/span", "view/chart/data"]
         .map((name) => `export * from "./src/${name}";`).join("\n"),
       resolveDir: join(SOURCE, "interpreter/show/web/page"),
     },

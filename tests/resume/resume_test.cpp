@@ -524,6 +524,24 @@ TEST_CASE("log check --leaves blames no leaf for what a cut does") {
   CHECK(check.code == 0);
 }
 
+TEST_CASE("a question that is held at a cut has an event when it is asked again, and none before") {
+  CutRun run(
+      ours("<ParallelAbsolute barriers='0.5'><Sequence memory='true'><AlwaysSuccess/>"
+           "<Ask name='q' text='Well?' timeout='30' default='yes'/></Sequence>"
+           "<Step who='a' ticks='20'/></ParallelAbsolute>"));
+  const std::string recording = run.directory().path("run.jsonl");
+  REQUIRE(run.go({"--record", recording}).code == 0);
+  const std::string uncut = read_file(recording);
+  REQUIRE(run.cut(5, {"--record", recording}).code == 128 + SIGKILL);
+  CHECK(run.resume({"--record", recording}).code == 0);
+  std::ofstream(recording) << uncut.substr(0, uncut.find("{\"tick\":5,"));
+  const Outcome events = run_lockstep(
+      {"log", "events", recording, "--path", "q", "--event", "ask", "--format", "csv"});
+  const std::vector<std::string> asked = lines(events.out);
+  REQUIRE(asked.size() == 3);  // with the names of the columns
+  for (std::size_t i = 1; i < asked.size(); ++i) CHECK(asked[i].ends_with(",Well?"));
+}
+
 TEST_CASE("log info counts no step over ticks that were lost with a cut") {
   CutRun run(
       ours("<ParallelRelative delta='0.9'><Move who='a' ticks='20'/><Move who='b' ticks='20'/>"

@@ -98,13 +98,14 @@ class Events {
 
  private:
   // A node asks with each text that it did not have before: it has none after each activation. The
-  // line after a cut has the same text again.
+  // line after a cut has the same text again, or none: one that is held asks later, or has its
+  // answer.
   void add_questions(const RecordedTick& tick, bool is_first) {
     for (Question& it : questions_) {
       const auto reason = std::ranges::find(tick.reasons, it.node, &RecordedReason::node);
       if (reason != tick.reasons.end() && std::exchange(it.text, reason->text) != reason->text)
         it.is_told = false;
-      if (now_[it.node].status() != Status::Running) continue;
+      if (now_[it.node].status() != Status::Running || it.text.empty()) continue;
       if (!std::exchange(it.is_told, true) && !is_first)
         add(EventKind::Ask, header_.nodes[it.node].path, it.text);
     }
