@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/core/deadlines.h"
 #include "record/part_names.h"
 #include "run/shape_of.h"
 #include "show/web/server_socket.h"
@@ -87,6 +88,10 @@ void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
     end.first_tick = start_.first_tick;
     end.ticks = ticker.tick_number();
     end.time = end.last = last;
+    if (!start_.real_time) {  // there, the last one lasts until the next would begin
+      const Deadlines deadlines(run_.rate_hz);
+      end.time = deadlines.at(deadlines.first_from(last + Nanoseconds(1)));
+    }
     if (ticker.fault() != nullptr) {
       end.reason = StopReason::Fault;
       end.fault = *ticker.fault();

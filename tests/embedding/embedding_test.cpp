@@ -1317,6 +1317,23 @@ TEST_CASE("a run of a program is recorded and has a monitor, from its first tick
   CHECK_THROWS(runtime::Run(project).record("/no/such/folder/run.jsonl"));
 }
 
+TEST_CASE("on the virtual clock, the last recorded tick of a program lasts a whole period") {
+  const runtime::Project project = project_of("<Step step=\"0.001\"/>");
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("lockstep_times_" + std::to_string(getpid()) + ".jsonl");
+  {
+    runtime::RunSettings settings;
+    settings.virtual_time = true;
+    runtime::Run run(project, settings);
+    run.record(file);
+    for (int i = 0; i < 10; ++i) CHECK(run.tick(i * 0.01) == Status::Running);
+  }
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  CHECK(text.find(R"("ticks":10,"time_s":0.1,)") != std::string::npos);
+  std::filesystem::remove(file);
+}
+
 TEST_CASE("the recording of a run that its program ends has the reason stopped, and no signal") {
   const runtime::Project project = project_of("<Step step=\"0.001\"/>");
   const std::string file = std::filesystem::temp_directory_path() /
