@@ -175,7 +175,10 @@ void KeptRun::go_on(Run& run) {
   gap_ = from_seconds(told.gap);
   cut_ = ticker.cut_leaves();
   for (CutLeaf& leaf : cut_) {
-    leaf.does = tree_.leaves[leaf.place].at_cut.unasked(options_.on_resume);
+    // What another robot does is heard, and never assumed.
+    const LeafNode& node = tree_.leaves[leaf.place];
+    leaf.does = stands_for_robots(*node.type) ? AfterCut::StartsAgain
+                                              : node.at_cut.unasked(options_.on_resume);
     const bool has_kept = leaf.place < leaves_.size() && !leaves_[leaf.place].empty();
     if (has_kept) ticker.ask_after_cut(leaf, leaves_[leaf.place], told);
   }

@@ -5,6 +5,7 @@ one whose name another program takes. Waits for what the robots print, and never
 
 MEMBER is team_member.c, and TYPES the types of its words as a shared library, for team_member.py. LIAR is liar.c.
 """
+import json
 import os
 import signal
 import subprocess
@@ -115,6 +116,23 @@ def test_a_robot_that_is_a_round_ahead_stays_so_when_it_continues(folder):
     again.wait_for("resumed after")
     left.succeeds()  # it would wait for ever for one that does the first round again
     again.succeeds()
+
+
+def test_a_robot_that_continues_has_the_progress_that_it_heard_last(folder):
+    kept = ("--checkpoint", f"{folder}/right.checkpoint", "--resume", "--on-resume", "success")
+    left = Robot("left", folder)
+    right = Robot("right", folder, "--arg", "step=0.05", *kept)
+    right.wait_for("lift: waits for left at barrier 0.5")  # so left is behind 0.25
+    right.kill()
+    again = Robot("right", folder, "--arg", "step=0.05", *kept)
+    again.wait_for("resumed after.*left' starts again")  # what another robot does is never assumed
+    left.succeeds()
+    again.succeeds()
+    with open(again.record, encoding="utf-8") as file:
+        lines = [json.loads(line) for line in file]
+    node = next(it["index"] for it in lines[0]["nodes"] if it["path"].endswith("/left"))
+    heard = [it[2] for line in lines[1:] for it in line.get("nodes", []) if it[0] == node and it[1] in ("running", "failure")]
+    assert heard and min(heard) >= 0.25, heard
 
 
 def test_two_of_one_name_both_hold(folder):

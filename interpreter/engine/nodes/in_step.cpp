@@ -72,15 +72,20 @@ struct Others {
   bool are_heard = true, have_begun = true;
 };
 
+// Not so of one that this process has not asked yet, after a cut.
+bool was_heard(NodeContext& context, NodeIndex other) {
+  return context.status(other) != Status::Failure && !context.leaf(other).was_cut();
+}
+
 // One that was not heard before this tick counts from the next one on: its progress is not known.
 Others tick_others(NodeContext& context, NodeIndex self) {
   Others others;
   for (NodeIndex other = context.end_of(self + 1); other != context.end_of(self);
        other = context.end_of(other)) {
-    const Status before = context.status(other);
-    if (before == Status::Success) continue;  // it has completed this round
+    if (context.status(other) == Status::Success) continue;  // it has completed this round
+    const bool is_known = was_heard(context, other);
     const Status status = context.tick(other);
-    others.are_heard &= before != Status::Failure && status != Status::Failure;
+    others.are_heard &= is_known && status != Status::Failure;
     others.have_begun &= status == Status::Running || status == Status::Success;
   }
   return others;
@@ -94,7 +99,7 @@ double take_snapshot(NodeContext& context, NodeIndex self) {
   std::size_t place = 1;
   for (NodeIndex other = context.end_of(self + 1); other != context.end_of(self);
        other = context.end_of(other), ++place) {
-    if (context.status(other) != Status::Failure) progress[place] = context.progress(other);
+    if (was_heard(context, other)) progress[place] = context.progress(other);
   }
   return least_progress(progress);
 }
