@@ -210,6 +210,7 @@ TEST_CASE("an order that can have no effect is refused, and an answer that comes
   it.order({{"do", "step"}});
   it.wait_for_tick(5);
   CHECK(refused(yes) == none);
+  CHECK(refused({{"do", "attend"}}) == "the run was not started with --attended");
   it.order({{"do", "halt"}});
   it.events().finish();
   CHECK(contains(it.run().process().finish().err,
@@ -254,6 +255,13 @@ TEST_CASE("what is no order is refused with a sentence") {
   CHECK(error(R"({"do":"fly"})") == "'fly' is not an order");
   CHECK(error(R"({"do":"step","tick":5})") == "unknown key 'tick'");
   CHECK(error(R"({"do":"step","ticks":0})") == "'ticks' is 0, expected 1 to 1000000000");
+  CHECK(error(R"({"do":"speed"})") == "the wall clock has one speed; --clock virtual has others");
+  CHECK(error(R"({"do":"set","value":1})") == "'entry' is missing");
+  CHECK(error(R"({"do":"set","entry":"pause"})") == "'value' is missing");
+  CHECK(error(R"({"do":"break","when":"begins"})") == "'node' is missing");
+  CHECK(error(R"({"do":"break","node":0})") == "'when' is missing");
+  CHECK(error(R"({"do":"answer","node":0})") == "'answer' is missing");
+  CHECK(error(R"({"do":"answer","answer":"yes"})") == "'node' is missing");
   CHECK(error(R"({"do":"break","node":99,"when":"begins"})") == "no node 99, expected 0 to 4");
   CHECK(error(R"({"do":"break","node":0,"when":"barrier"})") ==
         "'Main/all' has no barriers and no delta");

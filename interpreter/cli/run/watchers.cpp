@@ -192,9 +192,7 @@ Result<std::string> Watchers::answer_request(const std::string& request) {
   if (order->what != What::Answer && order->what != What::Attend) {
     return problem("only answers and attendance come through this socket");
   }
-  if (order->what == What::Attend && !options_.attended) {
-    return problem("the run was not started with --attended", "lockstep run TREE.xml --attended 5");
-  }
+  if (order->what == What::Attend && !options_.attended) return tl::unexpected(vain_attendance());
   const bool attends = order->what == What::Attend;
   control_->give(*std::move(order));
   return attends ? fmt::format("{}", *options_.attended) : std::string();

@@ -24,12 +24,25 @@ constexpr std::array<std::string_view, 5> kWhen{"begins", "completes", "barrier"
                                                 "fails"};  // by When
 
 struct Fields {
-  std::string what, entry, value, when, answer, by;
+  std::string what, by;
+  std::optional<std::string> entry = {}, value = {}, when = {}, answer = {};
   std::uint64_t ticks = 1;
   std::optional<std::uint64_t> node = {}, seen = {};
-  double factor = -1;
+  std::optional<double> factor = {};
   bool on = true;
 };
+
+template <class T>
+auto given(std::optional<T>& field) {
+  return [&field](JsonValue value) { into(field.emplace())(value); };
+}
+
+// What an order cannot do without.
+template <class T>
+const T& needed(const std::optional<T>& field, std::string_view key) {
+  if (!field) throw JsonError(fmt::format("'{}' is missing", key));
+  return *field;
+}
 
 // A value is a text, as in --set, or a number or a truth value of JSON.
 std::string text_of(JsonValue value) {
@@ -65,14 +78,14 @@ Fields read_fields(std::string& text) {
   JsonReader().read(text, [&](JsonObject object) {
     object.read({{"do", into(fields.what)},
                  {"ticks", into(fields.ticks), kMayLack},
-                 {"factor", into(fields.factor), kMayLack},
-                 {"entry", into(fields.entry), kMayLack},
+                 {"factor", given(fields.factor), kMayLack},
+                 {"entry", given(fields.entry), kMayLack},
                  {"value", [&](JsonValue value) { fields.value = text_of(value); }, kMayLack},
-                 {"node", [&](JsonValue value) { fields.node = value.whole(); }, kMayLack},
-                 {"seen", [&](JsonValue value) { fields.seen = value.whole(); }, kMayLack},
-                 {"answer", into(fields.answer), kMayLack},
+                 {"node", given(fields.node), kMayLack},
+                 {"seen", given(fields.seen), kMayLack},
+                 {"answer", given(fields.answer), kMayLack},
                  {"by", into(fields.by), kMayLack},
-                 {"when", into(fields.when), kMayLack},
+                 {"when", given(fields.when), kMayLack},
                  {"on", [&](JsonValue value) { fields.on = flag_of(value); }, kMayLack}});
   });
   return fields;
@@ -89,30 +102,32 @@ Result<Order> step(const Fields& fields) {
 Result<Order> speed(const Fields& fields, bool is_real_time) {
   constexpr double kLeast = 0.1, kMost = 100;
   if (is_real_time) return problem("the wall clock has one speed; --clock virtual has others");
-  const bool is_good = fields.factor == 0 || (fields.factor >= kLeast && fields.factor <= kMost);
+  const double factor = needed(fields.factor, "factor");
+  const bool is_good = factor == 0 || (factor >= kLeast && factor <= kMost);
   if (!is_good) {
     return problem(fmt::format("'factor' is {}, expected {} to {}, or 0 for as fast as possible",
-                               fields.factor, kLeast, kMost));
+                               factor, kLeast, kMost));
   }
-  return Order{.what = What::Speed, .speed = fields.factor};
+  return Order{.what = What::Speed, .speed = factor};
 }
 
 Result<Order> set(const Shape& shape, const Fields& fields) {
-  const auto slot = std::ranges::find(shape.entries, fields.entry, &ShapeEntry::key);
+  const std::string& key = needed(fields.entry, "entry");
+  const std::string& text = needed(fields.value, "value");
+  const auto slot = std::ranges::find(shape.entries, key, &ShapeEntry::key);
   if (slot == shape.entries.end()) {
-    return problem(fmt::format("the tree has no entry '{}'", printable(fields.entry)));
+    return problem(fmt::format("the tree has no entry '{}'", printable(key)));
   }
   const bool is_any = slot->typing == Typing::Any;
   const ValueType type = is_any ? ValueType::String : slot->value_type;
   if (type == ValueType::Object) {
     return problem(
-        fmt::format("'{}' holds objects of a plugin: they have no text", printable(fields.entry)));
+        fmt::format("'{}' holds objects of a plugin: they have no text", printable(key)));
   }
-  auto value =
-      is_any ? std::optional(value_of_any_type(fields.value)) : parse_value(type, fields.value);
+  auto value = is_any ? std::optional(value_of_any_type(text)) : parse_value(type, text);
   if (!value) {
-    return problem(fmt::format("'{}' is not {}, which '{}' holds", printable(fields.value),
-                               expected_text(type), printable(fields.entry)));
+    return problem(fmt::format("'{}' is not {}, which '{}' holds", printable(text),
+                               expected_text(type), printable(key)));
   }
   return Order{.what = What::Set,
                .slot = static_cast<std::uint32_t>(slot - shape.entries.begin()),
@@ -127,14 +142,14 @@ std::optional<When> when_of(std::string_view word) {
 }
 
 Result<NodeIndex> node_of(const Shape& shape, const Fields& fields) {
-  if (!fields.node) return problem("'node' is missing");
-  if (*fields.node < shape.nodes.size()) return static_cast<NodeIndex>(*fields.node);
-  return problem(fmt::format("no node {}, expected 0 to {}", *fields.node, shape.nodes.size() - 1));
+  const std::uint64_t node = needed(fields.node, "node");
+  if (node < shape.nodes.size()) return static_cast<NodeIndex>(node);
+  return problem(fmt::format("no node {}, expected 0 to {}", node, shape.nodes.size() - 1));
 }
 
 Result<Order> breakpoint(const Shape& shape, const Fields& fields) {
-  const auto when = when_of(fields.when);
   const auto node = node_of(shape, fields);
+  const auto when = when_of(needed(fields.when, "when"));
   if (!node) return tl::unexpected(node.error());
   if (!when)
     return problem("'when' is none of 'begins', 'completes', 'barrier', 'succeeds' and 'fails'");
@@ -149,42 +164,30 @@ Result<Order> breakpoint(const Shape& shape, const Fields& fields) {
 Result<Order> answer(const Shape& shape, const Fields& fields) {
   constexpr std::size_t kMostOfName = 200;
   const auto asks = [](const ShapeNode& it) { return it.question != nullptr; };
-  auto node = node_of(shape, fields);
-  if (!fields.node && std::ranges::count_if(shape.nodes, asks) == 1) {
-    node = static_cast<NodeIndex>(std::ranges::find_if(shape.nodes, asks) - shape.nodes.begin());
-  }
+  const std::string& given = needed(fields.answer, "answer");
+  const bool is_only = !fields.node && std::ranges::count_if(shape.nodes, asks) == 1;
+  const auto node = is_only ? Result<NodeIndex>(static_cast<NodeIndex>(
+                                  std::ranges::find_if(shape.nodes, asks) - shape.nodes.begin()))
+                            : node_of(shape, fields);
   if (!node) return tl::unexpected(node.error());
   const ShapeNode& it = shape.nodes[*node];
   if (!it.question) return problem(fmt::format("'{}' asks nothing", printable(it.path)));
-  const auto option = std::ranges::find(it.question->options, fields.answer);
+  const auto option = std::ranges::find(it.question->options, given);
   if (option == it.question->options.end()) {
     const std::vector<std::string_view> options(it.question->options.begin(),
                                                 it.question->options.end());
-    return problem(
-        fmt::format("'{}' is no answer to '{}'", brief(fields.answer), printable(it.path)),
-        suggest(fields.answer, options, "its answers"));
+    return problem(fmt::format("'{}' is no answer to '{}'", brief(given), printable(it.path)),
+                   suggest(given, options, "its answers"));
   }
   Order order{.what = What::Answer, .node = *node};
   order.option = static_cast<std::uint32_t>(option - it.question->options.begin());
   order.seen = fields.seen;
-  order.text = fields.answer;
+  order.text = given;
   order.who = printable(fields.by.substr(0, kMostOfName));
   return order;
 }
 
-}  // namespace
-
-std::string_view word_of(When when) {
-  return kWhen[static_cast<std::size_t>(when)];
-}
-
-Result<Order> read_order(const Shape& shape, bool is_real_time, std::string text) {
-  Fields fields;
-  try {
-    fields = read_fields(text);
-  } catch (const JsonError& error) {
-    return problem(error.what());
-  }
+Result<Order> order_of(const Shape& shape, bool is_real_time, const Fields& fields) {
   if (fields.what == "pause") return Order{.what = What::Pause};
   if (fields.what == "resume") return Order{.what = What::Resume};
   if (fields.what == "halt") return Order{.what = What::Halt};
@@ -196,6 +199,24 @@ Result<Order> read_order(const Shape& shape, bool is_real_time, std::string text
   if (fields.what == "answer") return answer(shape, fields);
   return problem(fmt::format("'{}' is not an order", printable(fields.what)),
                  "pause, resume, step, halt, speed, set, break, answer, attend");
+}
+
+}  // namespace
+
+std::string_view word_of(When when) {
+  return kWhen[static_cast<std::size_t>(when)];
+}
+
+Result<Order> read_order(const Shape& shape, bool is_real_time, std::string text) {
+  try {
+    return order_of(shape, is_real_time, read_fields(text));
+  } catch (const JsonError& error) {
+    return problem(error.what());
+  }
+}
+
+Problem vain_attendance() {
+  return {"the run was not started with --attended", "lockstep run TREE.xml --attended 5"};
 }
 
 }  // namespace lockstep::host

@@ -260,6 +260,8 @@ WebAnswer Monitor::obey(const std::string& text) {
   if (!order) return refusal(400, order.error());
   order->who = order->who.empty() ? "page" : "page: " + order->who;
   if (order->what == What::Break) status_.note(order->breakpoint, order->is_on);
+  if (order->what == What::Attend && !control_->state().is_attended)
+    return refusal(409, vain_attendance());
   const NodeIndex node = order->node;
   // The others say themselves what comes of them, or nothing can come between.
   const bool changes_state = order->what == What::Set || order->what == What::Answer;

@@ -88,4 +88,21 @@ TEST_CASE("orders: an entry of any type takes a number or a truth value where th
   CHECK(value_of(R"("no")") == Value(std::string("no")));
 }
 
+TEST_CASE("orders: what an order cannot do without is named where it is missing") {
+  const Tree tree =
+      tree_from_text("Sequence(Script[code=s:='a'] Ask[text=One?] Ask[text=Two?;name=two])");
+  for (const auto& [order, key] : {std::pair<std::string, std::string>{"speed", "factor"},
+                                   {R"(set","value":"b)", "entry"},
+                                   {R"(set","entry":"s)", "value"},
+                                   {R"(break","when":"begins)", "node"},
+                                   {R"(break","node":0,"by":")", "when"},
+                                   {R"(answer","node":2,"by":")", "answer"},
+                                   {R"(answer","answer":"yes)", "node"}}) {
+    INFO(order);
+    const auto read = read_order(shape_of(tree), false, R"({"do":")" + order + R"("})");
+    REQUIRE_FALSE(read);
+    CHECK(read.error().message == "'" + key + "' is missing");
+  }
+}
+
 }  // namespace lockstep::host::test
