@@ -142,6 +142,17 @@ class Features(Session):
         self.assertIn("progress()", items)
         self.assertIn("limit", self.here("<Wait seconds=\"1\" skip_if=\"|"))
 
+    def test_completion_behind_a_blank_in_an_open_quote(self):
+        for typed in ("<Check code=\"limit == |", "<Check code=\"limit > 3 &amp;&amp; |", "<Check code=\"limit == 1 &amp;&amp;  l|",
+                      "<Script code=\"word = 'a'; limit=|", "<Check code=\"limit == |/>", "<Check code=\"limit == |\n<Wait seconds=\"1\"/>",
+                      "<Wait seconds=\"1\" on_success=\"limit |", "<WaitUntil code=\"limit > 3 &amp;&amp; |"):
+            for end in (TAIL, ""):
+                with self.subTest(typed + end):
+                    items = self.complete(HEAD + typed + end)
+                    self.assertIn("limit", items)
+                    self.assertNotIn("skip_if", items)
+        self.assertIn("table", self.here("<SyncProgress barrier=\"a |"))
+
     def test_completion_in_properties(self):
         text = HEAD + "<Wait name=\"pause\" seconds=\"1\"/>" + TAIL
         for typed, expected in (("|", "never"), ("never pau|", "pause"), ("never pause.|", "held"),

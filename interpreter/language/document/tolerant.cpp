@@ -158,8 +158,10 @@ class TolerantReader {
     const bool has_tag = line_end != kNowhere && value.find('<') != kNowhere;
     if (closed != kNowhere && !has_tag && !looks_like_attribute(value)) return open + closed;
     std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
-    if (closed != kNowhere && closed < line.size()) line = line.substr(0, closed);
-    if (looks_like_attribute(line)) line = line.substr(0, line.find_last_of(" \t"));
+    if (closed != kNowhere && closed < line.size()) {
+      line = line.substr(0, closed);
+      if (looks_like_attribute(line)) line = line.substr(0, line.find_last_of(" \t"));
+    }
     std::size_t end = line.find('<');
     for (const std::string_view mark : {"/>", ">"}) {
       if (line.ends_with(mark)) end = std::min(end, line.size() - mark.size());
