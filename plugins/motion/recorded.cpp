@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "unpacked.hpp"
 
@@ -93,8 +94,12 @@ class Player {
   // False when the activation has ended.
   bool take(const dom::element& line) {
     dom::element ignored;
-    if (line["end"].get(ignored) == simdjson::SUCCESS) return false;
-    if (line["continued"].get(ignored) == simdjson::SUCCESS) return false;
+    if (line["end"].get(ignored) == simdjson::SUCCESS) {
+      is_over_ = true;
+      return false;
+    }
+    if (line["continued"].get(ignored) == simdjson::SUCCESS) return true;
+    if (line["lockstep_recording"].get(ignored) == simdjson::SUCCESS) return begin_file();
     if (line["lost"].get(ignored) == simdjson::SUCCESS) return true;
     double tick = 0, time = 0;
     dom::array nodes;
@@ -103,14 +108,41 @@ class Player {
         line["nodes"].get(nodes) != simdjson::SUCCESS) {
       lines_.fail("not a line of a recording");
     }
+    if (std::exchange(begins_file_, false)) drop_from(tick);
     for (const dom::element& change : nodes) take_change(change);
-    if (ticks_.empty() && status_ == "idle") return true;
+    const bool is_first = !std::exchange(has_line_, true);
+    // A result that is there from the first line on may be of an activation in another file.
+    if (ticks_.empty() && (status_ == "idle" || (status_ != "running" && !is_ticked_))) return true;
+    began_before_ |= is_first && tick > 0 && status_ == "running";
     return add(tick, time);
   }
 
-  RecordedProgress played() { return {Curve(std::move(ticks_)), Curve(std::move(seconds_)), end_}; }
+  RecordedProgress played() {
+    RecordedProgress it{Curve(std::move(ticks_)), Curve(std::move(seconds_)), end_};
+    if (began_before_) it.lack = "began in an earlier file of the recording";
+    if (!is_over_) {
+      it.lack += it.lack.empty() ? "" : ", and ";
+      it.lack += "does not end in this one: the recording is truncated, or has another file";
+    }
+    return it;
+  }
 
  private:
+  // Files of one recording, joined. The first line of each has the whole state.
+  bool begin_file() {
+    status_ = "idle";
+    progress_ = 0;
+    return begins_file_ = true;
+  }
+
+  // What happened again after a cut.
+  void drop_from(double tick) {
+    while (!ticks_.empty() && ticks_.back().at >= tick - first_tick_) {
+      ticks_.pop_back();
+      seconds_.pop_back();
+    }
+  }
+
   void take_change(const dom::element& change) {
     std::uint64_t index = 0;
     std::string_view status;
@@ -123,6 +155,8 @@ class Player {
     if (index != node_) return;
     status_ = status;
     progress_ = progress;
+    std::uint64_t ticked = 1;
+    is_ticked_ = change.at(3).get(ticked) != simdjson::SUCCESS || ticked != 0;
   }
 
   // The progress is that before the tick; the result of the tick is one period later.
@@ -133,6 +167,7 @@ class Player {
     } else if (tick - first_tick_ <= ticks_.back().at || time - first_time_ <= seconds_.back().at) {
       lines_.fail("a tick that does not come after the one before");
     }
+    is_over_ = status_ != "running";
     if (status_ == "idle") return false;  // halted
     ticks_.push_back({tick - first_tick_, progress_});
     seconds_.push_back({time - first_time_, progress_});
@@ -145,6 +180,8 @@ class Player {
   std::size_t node_;
   std::string status_ = "idle";
   double progress_ = 0;
+  bool is_ticked_ = true, has_line_ = false, begins_file_ = false;
+  bool began_before_ = false, is_over_ = false;  // is_over_: its end is in the file, or its run's
   double first_tick_ = 0, first_time_ = 0;
   std::vector<Point> ticks_, seconds_;
   RecordedProgress::End end_ = RecordedProgress::End::None;
@@ -174,10 +211,16 @@ void Recorded::read(const std::string& from, const std::string& of) {
   recorded_ = read_recording(from, of);
   file_ = from;
   node_ = of;
+  is_told_ = recorded_.lack.empty();
 }
 
 void Recorded::start() {
   read(file.get(), node.get());
+  if (!std::exchange(is_told_, true)) {
+    log(lockstep::LogLevel::Warning,
+        "'" + node_ + "' in '" + file_ + "' " + recorded_.lack +
+            "; `lockstep log cat RECORDING > FILE` joins the files of a recording");
+  }
   pace_.start(clock.view(), now());
   report_.start(report);
   obey_.start(obey);

@@ -15,6 +15,8 @@ struct RecordedProgress {
 
   Curve ticks, seconds;  // both from its first tick
   End end = End::None;
+  // Where it is not in the file as a whole: what a person is told.
+  std::string lack = {};
 };
 
 // Throws std::runtime_error with file, line and reason.
@@ -44,6 +46,7 @@ class Recorded : public lockstep::Action<RecordedPorts> {
 
   std::string file_, node_;  // that were read
   RecordedProgress recorded_;
+  bool is_told_ = false;  // what it lacks
   Pace pace_;
   Report report_;
   Obey obey_;

@@ -1,5 +1,7 @@
 // The leaf Recorded of the plugin motion: what one run has recorded, another one plays.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "support/program.h"
 
@@ -73,6 +75,55 @@ TEST_CASE("Recorded plays a long recording to its end, plain or compressed") {
                 .code == 0);
     CHECK(played(directory.path("again.jsonl"), "Main/r") == played(file, node));
   }
+}
+
+TEST_CASE(
+    "Recorded plays an activation in several files when they are joined, and reports one of them") {
+  const TemporaryDirectory directory;
+  const std::string node = "Main/a", whole = directory.path("whole.jsonl");
+  const std::string tree =
+      directory.file("tree.xml", tree_text("<Advance name=\"a\" step=\"0.05\" noise=\"0.02\"/>"));
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--record",
+                        directory.path("run.jsonl"), "--record-rotate", "0.7s"})
+              .code == 0);
+  const auto join = [&] {
+    std::ofstream(whole) << run_lockstep({"log", "cat", directory.path("run.jsonl")}).out;
+  };
+  const auto play = [&](const std::string& file) {
+    const std::string player = directory.file(
+        "play.xml",
+        tree_text("<Recorded name=\"r\" file=\"" + file + "\" node=\"" + node + "\"/>"));
+    return run_lockstep({"run", player, "--clock", "virtual", "--view", "none", "--max-ticks", "60",
+                         "--record", directory.path("again.jsonl")});
+  };
+  join();
+  Outcome outcome = play(whole);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(played(directory.path("again.jsonl"), "Main/r") == played(whole, node));
+  outcome = play(directory.path("run.0002.jsonl"));
+  CHECK(outcome.code == 124);
+  CHECK(contains(outcome.err,
+                 "began in an earlier file of the recording, and does not end in this "
+                 "one: the recording is truncated, or has another file"));
+  outcome = play(directory.path("run.0003.jsonl"));
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "began in an earlier file of the recording; `lockstep log cat"));
+  // A kill: the file just ends.
+  const std::string text = read_file(directory.path("run.0001.jsonl"));
+  outcome = play(directory.file("cut.jsonl", text.substr(0, text.find("{\"tick\":5,"))));
+  CHECK(outcome.code == 124);
+  CHECK(contains(outcome.err, "' does not end in this one"));
+  // After a cut, ticks happen again.
+  const std::string again = "\"first_tick\":5," + text.substr(text.find("\"tree\""));
+  const auto line = [&](int tick) { return text.find("{\"tick\":" + std::to_string(tick) + ","); };
+  const std::string both = text.substr(0, line(6)) + "{\"lockstep_recording\":1," +
+                           again.substr(0, again.find('\n') + 1) +
+                           text.substr(line(5), text.find("{\"continued\"") - line(5));
+  outcome = play(directory.file("both.jsonl", both));
+  CHECK(outcome.code == 124);
+  const auto rows = played(directory.path("again.jsonl"), "Main/r"), real = played(whole, node);
+  CHECK(std::equal(real.begin(), real.begin() + 7, rows.begin()));
 }
 
 TEST_CASE("a recording that cannot be played ends the run before it begins, with the reason") {
