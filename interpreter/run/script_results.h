@@ -3,7 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 
+#include "base/core/hook.h"
+#include "base/core/language.h"
 #include "engine/tree.h"
 #include "language/expression/expression.h"
 
@@ -40,6 +44,18 @@ inline bool may_be_of_script(const Tree& tree, NodeIndex node, Status status, bo
   if (status == Status::Skipped) return has(Hook::While) || (begins && has(Hook::SkipIf));
   if (status == Status::Failure) return begins && has(Hook::FailureIf);
   return status == Status::Success && begins && has(Hook::SuccessIf);
+}
+
+// The script around the ticks of the node that this fault is of; none: it is of the node itself.
+inline std::optional<Hook> hook_of_fault(const Tree& tree, NodeIndex node,
+                                         std::string_view message) {
+  constexpr std::string_view kBegin = "its ";  // as of NodeScripts::fail
+  if (!has_script(tree, node) || !message.starts_with(kBegin)) return std::nullopt;
+  message.remove_prefix(kBegin.size());
+  const auto hook = hook_named(message.substr(0, message.find(':')), *tree.rules);
+  const HookedNode& hooked = tree.hooked[tree.hooks[node]];
+  const bool is_there = hook && hooked.script(*hook) != HookedNode::kNoScript;
+  return is_there ? hook : std::nullopt;
 }
 
 // Whether a script around the ticks of the node that assigns to the entry may have run at the end

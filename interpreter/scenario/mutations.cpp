@@ -31,7 +31,7 @@ std::optional<std::string_view> opposite(std::string_view tag) {
 }
 
 // Where an element begins and ends in the text.
-struct Extent {
+struct TextRange {
   std::size_t begin, end;
 };
 
@@ -65,7 +65,7 @@ class Mutator {
   }
 
   // From its '<' to behind its last '>'.
-  Extent extent_of(std::uint32_t at) const {
+  TextRange extent_of(std::uint32_t at) const {
     const std::string_view text = text_;
     const std::size_t begin = offset_of(elements_[at].tag) - 1;
     std::size_t from = end_of_tag(at);
@@ -107,7 +107,7 @@ class Mutator {
   // It keeps its name, so that paths stay the same.
   void swap(std::uint32_t at, std::string_view other) {
     const std::string_view tag = elements_[at].tag;
-    const Extent extent = extent_of(at);
+    const TextRange extent = extent_of(at);
     std::string text = text_;
     const std::size_t begin = offset_of(tag);
     if (text[end_of_tag(at) - 2] != '/') {
@@ -157,7 +157,7 @@ class Mutator {
   }
 
   void invert(std::uint32_t at) {
-    const Extent extent = extent_of(at);
+    const TextRange extent = extent_of(at);
     std::string text = text_;
     text.insert(extent.end, "</Inverter>");
     text.insert(extent.begin, "<Inverter>");
@@ -174,7 +174,7 @@ class Mutator {
   void swap_with_next(std::uint32_t at, std::uint32_t tree) {
     const std::uint32_t next = elements_[at].end;
     if (next >= elements_[tree].end || parent_of(at, tree).starts_with("Parallel")) return;
-    const Extent one = extent_of(at), two = extent_of(next);
+    const TextRange one = extent_of(at), two = extent_of(next);
     // The next element is its sibling only if nothing is closed between them.
     const std::string between = text_.substr(one.end, two.begin - one.end);
     if (between.find("</") != std::string::npos) return;

@@ -13,6 +13,7 @@
 #include "base/core/wording.h"
 #include "engine/writers.h"
 #include "judge/measure/entry_changes.h"
+#include "judge/summary/statistics.h"
 #include "record/read/recorded_moments.h"
 #include "record/read/recording_parts.h"
 #include "record/read/recording_reader.h"
@@ -94,15 +95,19 @@ class WordMaker {
   void take_fault(std::string_view fault) {
     for (Leaf& it : leaves_) {
       const std::string& path = header_.nodes[it.node].path;
-      if (!fault.starts_with(path + ": ") || it.words->empty() || !it.before.ticked) continue;
-      LeafWord& last = it.words->back();
-      if (last.status != Status::Running) continue;
-      // One that has scripts may never have been called: they fault again, if it was that.
-      if (has_script(tree_, it.leaf->node)) {
-        it.words->pop_back();
-      } else {
-        last.kind = LeafWord::Kind::Fault;
+      if (!fault.starts_with(path + ": ") || it.words->empty()) continue;
+      const std::string_view message = fault.substr(path.size() + 2);
+      if (message.starts_with(kNotHalted)) {
+        note(Lacks::LastHalt,
+             "'{}' could not be halted after the last tick: the scenario has no step for that",
+             path);
+        continue;
       }
+      if (!it.before.ticked || it.words->back().status != Status::Running) continue;
+      const auto hook = hook_of_fault(tree_, it.leaf->node, message);
+      // By an ancestor, after its tick: then it is idle. Or by its own script, before its tick.
+      if (hook == Hook::OnHalted && it.before.status != Status::Running) continue;
+      take_fault(it, hook, it.begins, words_.ticks.value_or(1) - 1);
     }
   }
 
@@ -126,7 +131,7 @@ class WordMaker {
     return is_initial || is_ticked();
   }
 
-  enum class Lacks { Moments, Faults, Value, OtherValues, TooLong, Decision };
+  enum class Lacks { Moments, Faults, Value, OtherValues, TooLong, Decision, Result, LastHalt };
 
   // Each once.
   template <class... Args>
@@ -176,6 +181,7 @@ class WordMaker {
     const LeafNode* leaf;
     std::vector<LeafWord>* words;
     RecordedState before = {};  // in the tick before
+    bool begins = false;        // an activation, with its last word
     std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
   };
 
@@ -208,32 +214,59 @@ class WordMaker {
     it.before = tick.nodes[it.node];
     it.before.progress = progress;
     if (it.before.ticked) it.still = 0;
+    const auto fault = std::ranges::find(tick.faults, it.node, &RecordedFault::node);
+    const bool has_fault = fault != tick.faults.end();
+    const auto hook =
+        has_fault ? hook_of_fault(tree_, it.leaf->node, fault->message) : std::nullopt;
     for (const LeafCalls::Call& call : calls) {
       Status status = tick.moments.empty() ? results_.of(tick, it.node) : call.status;
       if (status == Status::Idle) status = Status::Running;
+      it.begins = call.begins;
+      const bool is_of_fault = has_fault && hook != Hook::OnHalted && status != Status::Success;
+      if (!is_of_fault && is_left_to_script(it, status, call.begins, tick.tick)) continue;
       const double after = call.next ? calls_.progress_at(moment, it.node, *call.next) : progress;
-      add_word(tick, it, status, call.begins, after, calls.size() == 1);
+      add_word(tick, it, status, after, calls.size() == 1);
+      if (is_of_fault) take_fault(it, hook, call.begins, tick.tick);
     }
+  }
+
+  // Whether a script may have given the leaf this result. Then the leaf has no word for it.
+  bool is_left_to_script(const Leaf& it, Status status, bool begins, std::uint64_t tick) {
+    if (!may_be_of_script(tree_, it.leaf->node, status, begins)) return false;
+    const char step = status == Status::Skipped ? 'K' : status == Status::Failure ? 'F' : 'S';
+    note(Lacks::Decision,
+         "the {} of '{}' in tick {} may be that of its script or of the leaf itself: the scenario "
+         "has it as that of the script. If it is that of the leaf, add the step {}",
+         to_string(status), header_.nodes[it.node].path, tick, step);
+    return true;
+  }
+
+  // The last word of the leaf is of a call with a fault: of the leaf, or of a script of it. Such a
+  // script will fault again if the leaf does the same.
+  void take_fault(Leaf& it, std::optional<Hook> hook, bool begins, std::uint64_t tick) {
+    LeafWord& last = it.words->back();
+    if (!hook) {
+      last.kind = LeafWord::Kind::Fault;
+      return;
+    }
+    const bool is_before_tick = *hook <= Hook::While || *hook == Hook::OnHalted;
+    last.status = *hook == Hook::OnFailure ? Status::Failure : Status::Success;
+    last.progress = 0;
+    if (*hook == Hook::Post) {
+      note(Lacks::Result,
+           "'{}' has succeeded or failed in tick {}, before the fault of its script: the scenario "
+           "has the step S. If it has failed, write F",
+           header_.nodes[it.node].path, tick);
+    }
+    if (is_before_tick || is_left_to_script(it, last.status, begins, tick)) it.words->pop_back();
   }
 
   // `progress`: after it; the next tick may tell better. `is_only`: the leaf has no other word for
   // the tick.
-  void add_word(const RecordedTick& tick, const Leaf& it, Status status, bool begins,
-                double progress, bool is_only) {
-    if (may_be_of_script(tree_, it.leaf->node, status, begins)) {
-      const char step = status == Status::Skipped ? 'K' : status == Status::Failure ? 'F' : 'S';
-      note(
-          Lacks::Decision,
-          "the {} of '{}' in tick {} may be that of its script or of the leaf itself: the scenario "
-          "has it as that of the script. If it is that of the leaf, add the step {}",
-          to_string(status), header_.nodes[it.node].path, tick.tick, step);
-      return;
-    }
+  void add_word(const RecordedTick& tick, const Leaf& it, Status status, double progress,
+                bool is_only) {
     LeafWord word{.status = status};
     if (status == Status::Running) word.progress = progress;
-    for (const RecordedFault& fault : tick.faults) {
-      if (fault.node == it.node) word.kind = LeafWord::Kind::Fault;
-    }
     add_writes(tick, it, word, is_only);
     it.words->push_back(std::move(word));
   }
@@ -374,12 +407,12 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
       maker.add(*tick);
       ticks = tick->tick + 1;
     }
+    words.ticks = ticks;
     if (reader.end()) {
       words.result = reader.end()->result;
       maker.take_fault(reader.end()->fault);
     }
     maker.finish();
-    words.ticks = ticks;
     const auto timed = header.clock == "wall" ? timed_node(tree) : std::nullopt;
     if (timed) {
       words.notes.push_back(

@@ -122,8 +122,8 @@ std::string fault_text(const Shape& shape, const Fault& fault, std::uint64_t tic
 }
 
 std::string fault_text(const Shape& shape, const Fault& fault) {
-  return fmt::format("{}: {}{}", shape.nodes[fault.node].path,
-                     fault.in_last_halt ? "could not be halted: " : "", fault.message);
+  return fmt::format("{}: {}{}", shape.nodes[fault.node].path, fault.in_last_halt ? kNotHalted : "",
+                     fault.message);
 }
 
 std::vector<std::string> progress_notes(const Shape& shape, const LiveRun& run) {

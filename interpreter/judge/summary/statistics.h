@@ -52,7 +52,8 @@ std::string describe_node(const Shape& shape, NodeIndex node);
 std::string failure_text(const Fault& fault, std::uint64_t ticks, std::uint64_t first_tick = 0);
 // "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
 std::string fault_text(const Shape& shape, const Fault& fault, std::uint64_t tick);
-// "Door/pull/arm: threw …"
+// "Door/pull/arm: threw …"; in the last halt, the message begins so.
+inline constexpr std::string_view kNotHalted = "could not be halted: ";
 std::string fault_text(const Shape& shape, const Fault& fault);
 
 // "the leaf 'Door/pull/arm' reported …" of the first few leaves whose progress was no share, and
