@@ -182,26 +182,27 @@ class WordMaker {
     std::vector<LeafWord>* words;
     RecordedState before = {};  // in the tick before
     bool begins = false;        // an activation, with its last word
+    bool has_after = false;     // that word has what it led to
     std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
   };
 
   // Progress is that at the start of a tick: what the tick before has led to. Each tick that was
-  // withheld is a word, but those behind which the leaf does not drift any more.
+  // withheld is a word, but those behind which the leaf does not drift any more. One that a tick
+  // reached and then held has drifted since, if the recording has what that tick led to.
   static void take_progress(double progress, Leaf& it) {
     const RecordedState& before = it.before;
     if (it.words->empty() || before.status != Status::Running) return;
-    const bool has_moved = progress != before.progress;
-    if (before.ticked || !before.held) {
-      LeafWord& last = it.words->back();
-      if (last.status == Status::Running && last.kind != LeafWord::Kind::Fault) {
-        last.progress = progress;
-      }
-      if (before.held) ++it.still;
-    } else if (!has_moved) {
+    LeafWord& last = it.words->back();
+    const bool is_of_last = !before.held || (before.ticked && !it.has_after);
+    if (is_of_last && last.status == Status::Running && last.kind != LeafWord::Kind::Fault)
+      last.progress = progress;
+    if (!before.held) return;
+    const double held_at = before.ticked ? last.progress : before.progress;
+    if (progress == held_at) {
       ++it.still;
     } else {
       it.words->insert(it.words->end(), std::exchange(it.still, 0),
-                       {.kind = LeafWord::Kind::Held, .progress = before.progress});
+                       {.kind = LeafWord::Kind::Held, .progress = held_at});
       it.words->push_back({.kind = LeafWord::Kind::Held, .progress = progress});
     }
   }
@@ -225,6 +226,7 @@ class WordMaker {
       const bool is_of_fault = has_fault && hook != Hook::OnHalted && status != Status::Success;
       if (!is_of_fault && is_left_to_script(it, status, call.begins, tick.tick)) continue;
       const double after = call.next ? calls_.progress_at(moment, it.node, *call.next) : progress;
+      it.has_after = call.next && !tick.moments.progress.empty();
       add_word(tick, it, status, after, calls.size() == 1);
       if (is_of_fault) take_fault(it, hook, call.begins, tick.tick);
     }

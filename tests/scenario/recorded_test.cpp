@@ -57,6 +57,18 @@ TEST_CASE("a leaf that moves and is then held does so in the scenario of its rec
   CHECK(contains(text, R"(base" does="R0.375 R0.75 S"/>)"));
 }
 
+TEST_CASE("a leaf that moves and is held in one period has its drift while it is held") {
+  const auto words = [](const std::string& leaf) {
+    return scenario_of({R"(<ParallelRelative name="both" delta="0"><Advance name="arm"/>
+<AsyncSequence name="prep"><AlwaysSuccess/><Advance name="base"/></AsyncSequence>
+</ParallelRelative>)",
+                        "@rate 10\nT/both/arm = " + leaf + "\nT/both/prep/base = R0.2 R0.9 S\n",
+                        "t.leaves", R"(BTCPP_format="4")"});
+  };
+  for (const std::string leaf : {"R0.9 ~0.3 R1 S", "R0.9 R1 S"})
+    CHECK(contains(words(leaf), "/arm\" does=\"" + leaf + "\"/>"));
+}
+
 TEST_CASE(
     "a leaf that an ancestor has ended in its tick has the result that follows from the others") {
   const auto script = [](const std::string& text) { return "@rate 10\n@ticks 5\n" + text; };
