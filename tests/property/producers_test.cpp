@@ -6,12 +6,14 @@
 #include <sstream>
 
 #include "base/core/resource_set.h"
+#include "dialect/btcpp/rules.h"
 #include "property/btcpp_tree.h"
 #include "property/random_tree.h"
 #include "record/read/recorded_moments.h"
 #include "record/read/recording_reader.h"
 #include "record/write/recorder.h"
 #include "run/shape_of.h"
+#include "support/tree_text.h"
 #include "support/trials.h"
 #include "unit/recording/watched_run.h"
 
@@ -180,6 +182,43 @@ TEST_CASE("the Moments of a run of a random tree for BehaviorTree.CPP are those 
   }
   CHECK(counts.ticks > 3 * kProducerTrees / 2);
   CHECK(counts.within > kProducerTrees / 15);
+}
+
+// What a node left out when it asked its children for the last time in a tick.
+TEST_CASE("a recording has what a node used that asked its children several times in a tick") {
+  struct Row {
+    std::string_view tree, leaves;
+  };
+  // A leaf is skipped in one round of a period and runs in the next one, with some progress or
+  // none.
+  constexpr std::string_view kSkipped =
+      "Sequence(Script[code=go:=false] ParallelAbsolute[barriers=.5](a[_skipIf=!go] "
+      "AsyncSequence(Script[code=go:=true] AlwaysSuccess b)))";
+  // The same where nothing shows that the whole tree was ticked again but that nothing was reset.
+  constexpr std::string_view kInside =
+      "Sequence(Script[code=go:=false] ParallelAbsolute[barriers=.5]("
+      "AsyncSequence[_skipIf=!go](AlwaysSuccess AlwaysSuccess a) "
+      "AsyncSequence(Script[code=go:=true] AlwaysSuccess AlwaysSuccess b)))";
+  // One asks once, whatever is repeated below it.
+  constexpr std::string_view kRepeated =
+      "Sequence(Script[code=go:=false] ParallelAbsolute[barriers=.5](a[_skipIf=!go] "
+      "Repeat[num_cycles=50](AlwaysSuccess) b))";
+  // A barrier beside the tree asks once in a tick.
+  constexpr std::string_view kGroup =
+      "Sequence(Script[code=go:=false] Parallel(Repeat[num_cycles=2](Sequence("
+      "SyncProgress[barrier=g _skipIf=!go](a) Script[code=go:=true])) "
+      "SyncProgress[barrier=g](b))) barrier[name=g barriers=.5]";
+  const Row rows[] = {{kSkipped, "a=R.5S b=R.5S"}, {kSkipped, "a=R0RS b=R0RS"},
+                      {kInside, "a=R.5S b=R.5S"},  {kInside, "a=R0RS b=R0RS"},
+                      {kRepeated, "a=RS b=RRS"},   {kGroup, "a=R.2RS b=RRS"},
+                      {kGroup, "a=R0RS b=RRS"}};
+  SeenCounts counts;
+  for (const auto& [tree, leaves] : rows) {
+    INFO(tree << ", " << leaves);
+    WatchedRun run(tree_from_text(tree, btcpp::kRules), leaves);
+    compare(run, 12, counts);
+  }
+  CHECK(counts.left_out > 0);
 }
 
 }  // namespace lockstep::host::test

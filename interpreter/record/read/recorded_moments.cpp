@@ -37,6 +37,7 @@ RecordedMoments::RecordedMoments(const RecordingHeader& header)
       limit_(header.nodes.size()),
       uses_(header.nodes.size()),
       is_guard_(header.nodes.size()),
+      is_leaf_(header.nodes.size()),
       texts_(header.entries.size()),
       names_children_(header.law >= kNamesChildren) {
   const auto keeps = [](const ShapeNode& it) {
@@ -48,6 +49,10 @@ RecordedMoments::RecordedMoments(const RecordingHeader& header)
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
     limits_.push_back(&limit_[node]);
     is_guard_[node] = header.nodes[node].is_guard;
+    if (const auto parent = header.nodes[node].parent) {  // not beside the tree
+      is_leaf_[node] = true;
+      is_leaf_[*parent] = false;
+    }
     if (keeps(header.nodes[node])) add(header, node);
   }
   for (const Keeper& it : keepers_) uses_[it.node] = it.used;
@@ -122,37 +127,64 @@ void RecordedMoments::read_ended(const RecordedTick& tick) {
   }
 }
 
+// Whether the whole tree was ticked again from one moment to the next, since a node had asked for
+// it. Else a node that is in its tick ticks a child again that had completed, or resets something;
+// no leaf gets a tick while it is running that it has had.
+bool RecordedMoments::is_ticked_again(std::span<const NodeState> was,
+                                      std::span<const NodeState> now) const {
+  if (was[0].status() != Status::Running || !now[0].ticked()) return false;
+  bool is_within = false;
+  for (NodeIndex node = 0; node < now.size(); ++node) {
+    const bool was_running = was[node].ticked() && was[node].status() == Status::Running;
+    if (is_leaf_[node] && was_running && now[node].ticked()) return true;
+    const bool is_reset = was[node].status() != Status::Idle && now[node].status() == Status::Idle;
+    const bool had_result = was[node].ticked() && has_ended(was[node].status());
+    is_within |= is_reset || (had_result && now[node].ticked());
+  }
+  return !is_within;
+}
+
 // The moment after which a node asked its children for the last time in a tick; none: it asked them
-// before the first one. It has asked again if a child is ticked that had a result in this tick: a
-// child whose tick has several moments, since something below it was reset, is Running between
-// them.
+// before the first one. It has asked again if the whole tree was ticked again, if it did not run,
+// or if a child is ticked that had a result in this tick: a child whose tick has several moments,
+// since something below it was reset, is Running between them.
 std::optional<std::size_t> RecordedMoments::asked_after(const Keeper& keeper,
                                                         const MomentsView& moments) {
   std::optional<std::size_t> last;
   std::vector<bool> has_result(keeper.children.size());
+  bool has_asked = false, begins = false;
   std::size_t number = 0;
+  const auto look = [&](std::span<const NodeState> now, std::optional<std::size_t> before) {
+    if (before) begins |= is_ticked_again(before_, now);
+    if (now[keeper.node].ticked()) {
+      for (std::size_t child = 0; child < has_result.size(); ++child)
+        begins |= has_result[child] && now[keeper.children[child]].ticked();
+      if (begins || !has_asked) {
+        last = before;
+        has_result.assign(has_result.size(), false);
+      }
+      has_asked = true;
+      begins = false;
+      for (std::size_t child = 0; child < has_result.size(); ++child) {
+        const NodeState state = now[keeper.children[child]];
+        has_result[child] = has_result[child] || (state.ticked() && has_ended(state.status()));
+      }
+    }
+    begins |= now[keeper.node].status() != Status::Running;
+    before_.assign(now.begin(), now.end());
+  };
   moments.each(within_, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
-    const std::size_t moment = number++;
-    if (!now[keeper.node].ticked()) return;
-    bool asks = false;
-    for (std::size_t child = 0; child < has_result.size(); ++child)
-      asks |= has_result[child] && now[keeper.children[child]].ticked();
-    if (asks) {
-      last = moment - 1;
-      has_result.assign(has_result.size(), false);
-    }
-    if (it.times > 1) last = moment;
-    for (std::size_t child = 0; child < has_result.size(); ++child) {
-      const NodeState state = now[keeper.children[child]];
-      has_result[child] = has_result[child] || (state.ticked() && has_ended(state.status()));
-    }
+    look(now, number == 0 ? std::nullopt : std::optional(number - 1));
+    if (it.times > 1) look(now, number);
+    ++number;
   });
   return last;
 }
 
 // The columns are still those of the tick before.
 void RecordedMoments::read_used(Keeper& keeper, const RecordedTick& tick) {
-  const bool asks_once = keeper.is_plain || tick.moments.empty();
+  const bool is_group = !keeper.members.empty();  // it asks them before the tree is ticked
+  const bool asks_once = keeper.is_plain || is_group || tick.moments.empty();
   const auto last = asks_once ? std::nullopt : asked_after(keeper, tick.moments);
   within_.clear();
   if (last) tick.moments.after(*last, within_);
@@ -200,7 +232,8 @@ bool RecordedMoments::is_left_out(const Keeper& keeper, std::size_t child) const
   const bool is_group = !keeper.members.empty();
   const bool runs = before(keeper.node) == Status::Running;
   const Status last = before(is_group ? keeper.members[child] : keeper.children[child]);
-  if (is_group && keeper.used[child] != 0) return false;  // a member that has succeeded stays at 1
+  const bool is_compared = is_group || !keeper.is_plain;
+  if (is_compared && keeper.used[child] != 0) return false;  // what is left out has 0 in its line
   if (runs && last == Status::Skipped) return true;
   if (!is_group) return false;
   const auto was_skipped = [&](NodeIndex node) { return before(node) == Status::Skipped; };

@@ -32,6 +32,7 @@ class RecordedMoments {
     std::vector<double> used = {};
   };
   void add(const RecordingHeader& header, NodeIndex node);
+  bool is_ticked_again(std::span<const NodeState> was, std::span<const NodeState> now) const;
   std::optional<std::size_t> asked_after(const Keeper& keeper, const MomentsView& moments);
   void read_used(Keeper& keeper, const RecordedTick& tick);
   double in_plain_parallel(const Keeper& keeper, std::size_t child, const RecordedTick& tick);
@@ -46,7 +47,9 @@ class RecordedMoments {
   std::vector<const double*> limits_, factors_;
   std::vector<std::span<const double>> uses_;
   std::vector<NodeState> within_;  // before a node asked for the last time; empty: before the tick
+  std::vector<NodeState> before_;  // the moment before, while moments are read
   std::vector<bool> is_guard_;     // it is ticked again after it has completed
+  std::vector<bool> is_leaf_;
   std::vector<Keeper> keepers_;
   std::vector<NodeIndex> ended_;
   std::vector<EntryText> texts_;
