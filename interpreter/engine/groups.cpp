@@ -25,6 +25,14 @@ void Groups::end_tick() {
   }
 }
 
+// Only end_tick makes one idle: its own tick does not.
+void Groups::reopen_tick() {
+  for (const Group& group : tree_.groups) {
+    Activity& activity = state_.activity[group.node];
+    if (activity == Activity::Idle) activity = Activity::Running;
+  }
+}
+
 // What a group was when its ancestor ended means nothing for later ticks: it begins idle. Two
 // states that differ in that alone must be one, or a search for all states finds each of them
 // twice.

@@ -30,6 +30,8 @@ class Groups {
   void tick(NodeContext& context);
   // After the root was ticked.
   void end_tick();
+  // The root is ticked again in the same period: no tick of theirs has ended yet.
+  void reopen_tick();
 
   // A member was ticked: its group counts as ticked in this tick.
   void reach(NodeIndex group) { state_.last_tick[group] = state_.tick_number; }

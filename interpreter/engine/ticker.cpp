@@ -58,8 +58,10 @@ Status Ticker::tick_root_beside() {
 Status Ticker::tick_root_again() {
   const InEngine scope(board_.lock.get());
   if (moments_ != nullptr) moments_->reopen(state_);
+  groups_.reopen_tick();
   begin_calls();
   const Status result = tick(0);
+  groups_.end_tick();
   if (moments_ != nullptr) moments_->end_tick(state_);
   return end_calls(result);
 }

@@ -3,6 +3,7 @@
 
 #include "dialect/btcpp/rules.h"
 #include "nodes/btcpp_control_laws.h"
+#include "support/scripted_run.h"
 #include "support/tick_table.h"
 
 namespace lockstep::host::test {
@@ -24,6 +25,39 @@ constexpr TickRow kGroups[] = {
 // clang-format on
 
 }  // namespace
+
+// A node asks for another tick of the tree in the period in which the group ends or begins.
+TEST_CASE("BehaviorTree.CPP: a group runs while the node around its members does, in each period") {
+  struct Row {
+    std::string_view tree, leaves;
+    Status status;  // of the group, after the first period
+  };
+  const Row rows[] = {
+      {"SequenceWithMemory(AlwaysSuccess Sequence(UseResources[pool=p resources=A](a))) "
+       "resources[name=p]",
+       "a=S", Status::Idle},
+      {"AsyncSequence(AlwaysSuccess UseResources[pool=p resources=A](a)) resources[name=p]", "a=S",
+       Status::Idle},
+      {"AsyncSequence(Sequence(UseResources[pool=p resources=A](a)) AlwaysSuccess b) "
+       "resources[name=p]",
+       "a=S b=R", Status::Idle},
+      {"AsyncSequence(AlwaysSuccess Sequence(UseResources[pool=p resources=A](a) b)) "
+       "resources[name=p]",
+       "a=S b=R", Status::Running},
+      {"AsyncSequence(AlwaysSuccess Parallel(SyncProgress[barrier=g](a) "
+       "SyncProgress[barrier=g](b)))"
+       " barrier[name=g barriers=.5]",
+       "a=S b=R", Status::Running},
+      {"AsyncSequence(AlwaysSuccess Fallback(Parallel(SyncProgress[barrier=g](a) "
+       "SyncProgress[barrier=g](AlwaysFailure)) AlwaysSuccess) b) barrier[name=g barriers=.5]",
+       "a=S b=R", Status::Idle}};
+  for (const Row& row : rows) {
+    INFO(row.tree);
+    ScriptedRun run(row.tree, row.leaves, FaultPolicy::Stop, btcpp::kRules);
+    static_cast<void>(run.tick(Nanoseconds(0)));
+    CHECK(run.ticker().status(run.tree().groups.front().node) == row.status);
+  }
+}
 
 TEST_CASE("BehaviorTree.CPP: barriers and pools beside the tree, and WaitUntil") {
   check_rows(kGroups, FaultPolicy::Stop, btcpp::kRules);
