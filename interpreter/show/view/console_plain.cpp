@@ -49,17 +49,22 @@ void ConsolePlain::before_tick(const Moment&, std::uint64_t tick, Nanoseconds ti
 void ConsolePlain::after_tick(const Moment& moment, const TickReport& report) {
   for (const Fault& fault : report.faults) tell_fault(fault);
   has_ticked_ = true;
-  tell_waits(moment);
-  if (moment.within.empty()) return tell_leaves(moment);
-  // A leaf may complete and be begun again, or be halted with what is around it, in one tick.
+  if (moment.within.empty()) {
+    tell_waits(moment);
+    return tell_leaves(moment);
+  }
+  // A leaf may complete and be begun again, or be halted with what is around it, in one tick. And
+  // it may begin and then be held.
+  tell_waits(moment, Waits::Ends);
   moment.within.each_part(within_, [&](std::span<const NodeState> states, bool, bool) {
     for (Leaf& it : leaves_)
       tell_leaf(moment, it, states[it.node].status(), states[it.node].ticked());
   });
+  tell_waits(moment, Waits::Begins);
 }
 
-void ConsolePlain::tell_waits(const Moment& moment) {
-  for (Watched& node : nodes_) tell_waits(moment, node);
+void ConsolePlain::tell_waits(const Moment& moment, Waits which) {
+  for (Watched& node : nodes_) tell_waits(moment, node, which);
 }
 
 void ConsolePlain::tell_leaves(const Moment& moment) {
@@ -152,7 +157,7 @@ void ConsolePlain::tell_again(Leaf& leaf, Status status) {
                                            again, leaf.first, leaf.latest));
 }
 
-void ConsolePlain::tell_waits(const Moment& moment, Watched& node) {
+void ConsolePlain::tell_waits(const Moment& moment, Watched& node, Waits which) {
   const SynchronizedTick tick = node.ticks.read(moment);
   for (std::size_t i = 0; i < node.limits.size(); ++i) {
     node.limits[i] = moment.limit(node.ticks.children()[i] - 1);
@@ -163,8 +168,8 @@ void ConsolePlain::tell_waits(const Moment& moment, Watched& node) {
   }
   for (std::size_t child = 0; child < node.waits.size(); ++child) {
     if (tick.held[child] && tick.status == Status::Running) {
-      tell_wait(moment, node, child, tick);
-    } else if (node.waits[child].held) {
+      if (which != Waits::Ends) tell_wait(moment, node, child, tick);
+    } else if (node.waits[child].held && which != Waits::Begins) {
       tell_end_of_wait(moment, node, child);
     }
   }

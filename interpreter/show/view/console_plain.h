@@ -65,7 +65,8 @@ class ConsolePlain final : public Observer {
   bool may_print();
   void tell_left_out();
   void tell_fault(const Fault& fault);
-  void tell_waits(const Moment& moment);
+  enum class Waits { All, Ends, Begins };
+  void tell_waits(const Moment& moment, Waits which = Waits::All);
   void tell_leaves(const Moment& moment);
   void tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
@@ -73,7 +74,7 @@ class ConsolePlain final : public Observer {
   static std::string_view kind_of_reason(std::string_view reason);
   std::string_view reason_of(const Moment& moment, const Watched& node, std::size_t child) const;
   static bool fails_otherwise(const Moment& moment, const Leaf& leaf);
-  void tell_waits(const Moment& moment, Watched& node);
+  void tell_waits(const Moment& moment, Watched& node, Waits which);
   void tell_wait(const Moment& moment, Watched& node, std::size_t child,
                  const SynchronizedTick& tick);
   static std::string last_word(const Moment& moment, NodeIndex robot, double progress);

@@ -1,9 +1,11 @@
 // The plain lines, and the thread of the live view.
 #include <catch2/catch.hpp>
 
+#include "dialect/btcpp/rules.h"
 #include "run/shape_of.h"
 #include "show/view/console_live.h"
 #include "show/view/console_plain.h"
+#include "support/tree_text.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
@@ -16,9 +18,10 @@ Nanoseconds frozen() {
   return Nanoseconds(std::chrono::hours(1));
 }
 
-std::string plain(std::string_view tree, std::string_view leaves, std::uint64_t max_ticks = 1000) {
+std::string plain(std::string_view tree, std::string_view leaves, std::uint64_t max_ticks = 1000,
+                  const LanguageRules& rules = kLockstepRules) {
   TextFile out;
-  WatchedRun run(tree, leaves);
+  WatchedRun run(test::tree_from_text(tree, rules), leaves);
   ConsolePlain console(shape_of(run.run.tree()), out.outlet(), frozen);
   run.watch({&console}, max_ticks);
   return out.text();
@@ -34,6 +37,15 @@ TEST_CASE("plain lines tell who waits for whom") {
         "     0.500 s  tick 5       Test/ParallelAbsolute/b: success\n"
         "     0.900 s  tick 9       Test/ParallelAbsolute/a: success\n"
         "     0.900 s  tick 9       run ends: success (completed) after 10 ticks\n");
+}
+
+TEST_CASE("plain lines tell that a leaf begins before they tell that it waits in the same tick") {
+  const std::string text = plain("ParallelRelative[delta=0](a AsyncSequence(AlwaysSuccess b))",
+                                 "a=R.9RS b=R.2R.9S", 1, btcpp::kRules);
+  INFO(text);
+  const auto begins = text.find("/a: started"), waits = text.find("/a: waits for ");
+  CHECK(begins < waits);
+  CHECK(waits != std::string::npos);
 }
 
 TEST_CASE("plain lines tell how far ahead a child is") {
