@@ -105,7 +105,7 @@ std::string info_text(RecordingReader& reader, bool color) {
   std::uint64_t ticks = 0, faults = 0;
   const Moment* last = nullptr;
   while (const auto tick = reader.next()) {
-    ++ticks;
+    ticks = tick->tick + 1;
     if (const auto joint = joints.before(*tick)) {
       for (MeasuredNode& node : nodes) node.measure.join(*joint);
     }

@@ -353,6 +353,22 @@ TEST_CASE("info says that a recording is cut") {
                   "closing line\n") != std::string::npos);
 }
 
+TEST_CASE("info counts the ticks of the run in a part of it") {
+  std::istringstream in(
+      R"({"lockstep_recording":1,"tree":"T","file":"a.xml","version":"1","law":3,"rate_hz":10.0,)"
+      R"("clock":"virtual","seed":0,"arguments":{},"nodes":[{"index":0,"path":"T/w","kind":"Wait",)"
+      R"("name":"w","parent":null}],"first_tick":200})"
+      "\n"
+      R"({"tick":200,"time_s":20.0,"nodes":[[0,"running",0.5,1,0]],"whole":[]})"
+      "\n"
+      R"({"tick":201,"time_s":20.1,"nodes":[[0,"running",0.6,1,0]]})"
+      "\n");
+  RecordingReader reader(in, "run.jsonl");
+  const std::string info = info_text(reader);
+  INFO(info << reader.error());
+  CHECK(info.find("  202 ticks, 20.200 s; the recording is cut") != std::string::npos);
+}
+
 TEST_CASE("a recording that cannot be written is reported once and the run goes on") {
   for (const char* path : {"/nowhere/run.jsonl", "/dev/full"}) {
     WatchedRun run(kTree, kLeaves);
