@@ -94,8 +94,10 @@ std::vector<std::string> ticks_in(std::istream& in) {
       text += fmt::format(" {}/{} {} {}", state.round.number, state.round.of, state.factor,
                           moment.factors.empty() ? 1 : *moment.factors[node]);
       // Those of its last tick, which another process does not know.
-      if (moment.ticked(node))
-        text += fmt::format(" {} {}", moment.limit(node), moment.reason(node));
+      const auto kind = reader.header().nodes[node].synchronization;
+      if (moment.ticked(node) || compares_progress(kind))
+        text += fmt::format(" {}", moment.limit(node));
+      if (moment.ticked(node)) text += fmt::format(" {}", moment.reason(node));
       for (const double used : moment.uses[node]) text += fmt::format(" {}", used);
       text += "]";
     }

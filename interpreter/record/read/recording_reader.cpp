@@ -87,7 +87,7 @@ void RecordingReader::begin_with_whole(RecordedTick& tick) {
   if (!std::exchange(is_after_cut_, false)) return;
   const auto it = changed_in_cuts_.try_emplace(tick.tick, since_cut_.changed_entries(tick)).first;
   tick.entries = it->second;
-  since_cut_.complete(tick);
+  since_cut_.complete(tick, states_);
 }
 
 void RecordingReader::take(const RecordedTick& tick) {
@@ -134,7 +134,7 @@ void RecordingReader::begin_part() {
   }
   if (!is_resumed) return;
   begins_here_ = is_after_cut_ = has_skipped_ = true;  // its last line counts its own lost ticks
-  since_cut_.cut(states_);
+  since_cut_.cut(states_, header_);
   if (next_tick_ < read_until_) return;  // it has gone back
   // A gap directly before a cut is not the disk's: the process ended before it was written.
   lost_in_cuts_ += last_gap_;

@@ -26,9 +26,11 @@ void SinceCut::take(const RecordedTick& tick) {
   for (const RecordedHeard& it : tick.heard) heard_from_.insert(it.node);
 }
 
-void SinceCut::cut(std::vector<RecordedState>& states) {
+void SinceCut::cut(std::vector<RecordedState>& states, const Shape& shape) {
   for (NodeIndex node = 0; node < states.size(); ++node) {
     if (states[node] != RecordedState()) forgotten_.push_back(node);
+    const bool has_limit = compares_progress(shape.nodes[node].synchronization);
+    if (has_limit && states[node].limit != 0) limits_.emplace_back(node, states[node].limit);
   }
   std::ranges::fill(states, RecordedState());
 }
@@ -41,7 +43,11 @@ std::vector<RecordedEntry> SinceCut::changed_entries(const RecordedTick& tick) c
   return changed;
 }
 
-void SinceCut::complete(RecordedTick& tick) {
+void SinceCut::complete(RecordedTick& tick, std::vector<RecordedState>& states) {
+  for (const auto& [node, limit] : limits_) {
+    if (!states[node].ticked && states[node].limit == 0) states[node].limit = limit;
+  }
+  limits_.clear();
   changed_.assign(tick.changed.begin(), tick.changed.end());
   changed_.insert(changed_.end(), forgotten_.begin(), forgotten_.end());
   forgotten_.clear();

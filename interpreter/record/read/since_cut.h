@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "record/recording.h"
@@ -16,16 +17,18 @@ class SinceCut {
   void take(const RecordedTick& tick);  // each one, with what complete() has added
   // At the cut: forgets the states of the nodes, so that the next line is read as that of a new
   // run.
-  void cut(std::vector<RecordedState>& states);
+  void cut(std::vector<RecordedState>& states, const Shape& shape);
   // Of the first tick after the cut: the entries that differ from those before it.
   std::vector<RecordedEntry> changed_entries(const RecordedTick& tick) const;
-  // Adds to that tick what it left out. Valid until the next call.
-  void complete(RecordedTick& tick);
+  // Adds to that tick, and to the states after it, what it left out. Valid until the next call.
+  void complete(RecordedTick& tick, std::vector<RecordedState>& states);
 
  private:
   std::vector<std::optional<RecordedEntry>> entries_;  // by index
   std::set<NodeIndex> reasoned_, heard_from_;          // that have ever had one
   std::vector<NodeIndex> forgotten_, changed_;
+  // Of synchronized nodes, in the last tick that reached them: a new process does not know it.
+  std::vector<std::pair<NodeIndex, double>> limits_;
   std::vector<RecordedReason> reasons_;
   std::vector<RecordedHeard> heard_;
 };

@@ -57,6 +57,37 @@ TEST_CASE("a state that differs is found in its tick and its node, wherever it i
   }
 }
 
+// Its process does not know the limit of a node that it has not ticked.
+TEST_CASE("a run that was cut has the limits of one that was not") {
+  const auto header = [](const std::string& more) {
+    return R"({"lockstep_recording":1,"tree":"T","file":"a.xml","version":"1","law":3,)"
+           R"("rate_hz":10.0,"clock":"virtual","seed":0,"arguments":{},"nodes":[)"
+           R"({"index":0,"path":"T/s","kind":"Sequence","name":"s","parent":null},)"
+           R"({"index":1,"path":"T/s/p","kind":"ParallelAbsolute","name":"p","parent":0,)"
+           R"("barriers":[0.5]},)"
+           R"({"index":2,"path":"T/s/p/a","kind":"A","name":"a","parent":1},)"
+           R"({"index":3,"path":"T/s/w","kind":"Wait","name":"w","parent":0}])" +
+           more + "}\n";
+  };
+  const std::string first =
+      R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0,1,0],[1,"success",0,1,0],)"
+      R"([2,"success",1,1,0],[3,"running",0,1,0]],"limits":[[1,null]]})"
+      "\n";
+  const std::string whole = header("") + first +
+                            R"({"tick":1,"time_s":0.1,"nodes":[[1,"success",0,0,0],)"
+                            R"([2,"success",1,0,0],[3,"running",0.5,1,0]]})"
+                            "\n";
+  const std::string cut = header("") + first + "{\"continued\":{\"ticks\":1}}\n" +
+                          header(R"(,"first_tick":1,"resumed_after_s":2.0)") +
+                          R"({"tick":1,"time_s":0.1,"nodes":[[0,"running",0,1,0],)"
+                          R"([1,"success",0,0,0],[2,"success",1,0,0],[3,"running",0.5,1,0]],)"
+                          R"("whole":[]})"
+                          "\n";
+  const RecordingDiff diff = diff_of(whole, cut);
+  INFO(to_text(diff, "a", "b", false));
+  CHECK(!diff.tick);
+}
+
 TEST_CASE("times, faults and lost ticks differ too") {
   std::mt19937 random(5);
   const RandomRecording one = random_recording(random, {.gaps = false});
