@@ -48,6 +48,7 @@ std::optional<RecordedTick> RecordingReader::next() {
 bool RecordingReader::go_to(const Position& position, std::span<const RecordedState> states) {
   if (!lines_.go_to(position.lines)) return false;
   states_.assign(states.begin(), states.end());
+  since_cut_.forget_limits();
   next_tick_ = position.next_tick;
   last_time_ = position.time;
   // A tick is neither behind the closing line nor behind an error.
@@ -65,7 +66,9 @@ std::optional<RecordedTick> RecordingReader::read_further() {
     begin_part();
     return std::nullopt;
   }
+  since_cut_.withdraw_limits(states_);
   auto line = format_->line(lines_.text(), states_);
+  since_cut_.restore_limits(states_);
   std::visit([this](auto& it) { take(std::move(it)); }, line);
   auto* tick = std::get_if<RecordedTick>(&line);
   // Ticks before it may be lost.
@@ -87,7 +90,7 @@ void RecordingReader::begin_with_whole(RecordedTick& tick) {
   if (!std::exchange(is_after_cut_, false)) return;
   const auto it = changed_in_cuts_.try_emplace(tick.tick, since_cut_.changed_entries(tick)).first;
   tick.entries = it->second;
-  since_cut_.complete(tick, states_);
+  since_cut_.complete(tick);
 }
 
 void RecordingReader::take(const RecordedTick& tick) {

@@ -30,7 +30,9 @@ void SinceCut::cut(std::vector<RecordedState>& states, const Shape& shape) {
   for (NodeIndex node = 0; node < states.size(); ++node) {
     if (states[node] != RecordedState()) forgotten_.push_back(node);
     const bool has_limit = compares_progress(shape.nodes[node].synchronization);
-    if (has_limit && states[node].limit != 0) limits_.emplace_back(node, states[node].limit);
+    const bool is_known = std::ranges::find(limits_, node, &Limit::first) != limits_.end();
+    if (has_limit && !is_known && states[node].limit != 0)
+      limits_.emplace_back(node, states[node].limit);
   }
   std::ranges::fill(states, RecordedState());
 }
@@ -43,11 +45,18 @@ std::vector<RecordedEntry> SinceCut::changed_entries(const RecordedTick& tick) c
   return changed;
 }
 
-void SinceCut::complete(RecordedTick& tick, std::vector<RecordedState>& states) {
-  for (const auto& [node, limit] : limits_) {
-    if (!states[node].ticked && states[node].limit == 0) states[node].limit = limit;
-  }
-  limits_.clear();
+void SinceCut::withdraw_limits(std::vector<RecordedState>& states) const {
+  for (const auto& [node, limit] : limits_) states[node].limit = 0;
+}
+
+void SinceCut::restore_limits(std::vector<RecordedState>& states) {
+  std::erase_if(limits_, [&](const auto& it) {
+    return states[it.first].ticked || states[it.first].limit != 0;
+  });
+  for (const auto& [node, limit] : limits_) states[node].limit = limit;
+}
+
+void SinceCut::complete(RecordedTick& tick) {
   changed_.assign(tick.changed.begin(), tick.changed.end());
   changed_.insert(changed_.end(), forgotten_.begin(), forgotten_.end());
   forgotten_.clear();

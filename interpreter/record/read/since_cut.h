@@ -20,15 +20,21 @@ class SinceCut {
   void cut(std::vector<RecordedState>& states, const Shape& shape);
   // Of the first tick after the cut: the entries that differ from those before it.
   std::vector<RecordedEntry> changed_entries(const RecordedTick& tick) const;
-  // Adds to that tick, and to the states after it, what it left out. Valid until the next call.
-  void complete(RecordedTick& tick, std::vector<RecordedState>& states);
+  // Adds to that tick what it left out. Valid until the next call.
+  void complete(RecordedTick& tick);
+  // The limits from before the cut, around the reading of each line: none for the line, which
+  // leaves out 0, and after it those of nodes that no tick has reached since.
+  void withdraw_limits(std::vector<RecordedState>& states) const;
+  void restore_limits(std::vector<RecordedState>& states);
+  void forget_limits() { limits_.clear(); }
 
  private:
   std::vector<std::optional<RecordedEntry>> entries_;  // by index
   std::set<NodeIndex> reasoned_, heard_from_;          // that have ever had one
   std::vector<NodeIndex> forgotten_, changed_;
   // Of synchronized nodes, in the last tick that reached them: a new process does not know it.
-  std::vector<std::pair<NodeIndex, double>> limits_;
+  using Limit = std::pair<NodeIndex, double>;
+  std::vector<Limit> limits_;
   std::vector<RecordedReason> reasons_;
   std::vector<RecordedHeard> heard_;
 };
