@@ -245,7 +245,8 @@ class ReadablePort : public Port {
   using Port::Port;
 
  private:
-  View view_of_now() const {
+  // Apart, so that the way of a constant is in line also in a large plugin.
+  [[gnu::noinline]] View view_of_now() const {
     View value{};
     if (!PortTraits<T>::get(caller(), index(), value)) {
       throw EmptyPort(index(), name());
