@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -37,7 +38,10 @@ std::string words_text(const std::vector<LeafWord>& words) {
   for (std::size_t i = 0; i < words.size();) {
     std::size_t end = i + 1;
     while (end < words.size() && words[end] == words[i]) ++end;
-    text += fmt::format("{}{}", i == 0 ? "" : " ", to_text(words[i]));
+    // Twelve digits are more than any barrier tells apart.
+    LeafWord word = words[i];
+    word.progress = std::round(word.progress * 1e12) / 1e12;
+    text += fmt::format("{}{}", i == 0 ? "" : " ", to_text(word));
     if (end - i > 1) text += fmt::format("*{}", end - i);
     i = end;
   }

@@ -40,7 +40,7 @@ std::string scenario_of(const RecordedRun& it, int seed = 0) {
   const std::string text = read_file(file);
   std::string same = text;
   same.replace(same.find("<scenario name"), 9, fmt::format("<scenario seed=\"{}\"", seed));
-  same.insert(same.find("<expect"), R"(<expect same-as="run.jsonl"/>)");
+  same.insert(same.find("<expect"), R"(<expect same-as="run.jsonl" tolerance="0.000001"/>)");
   static_cast<void>(directory.file("t.test.xml", same));
   const Outcome played = run_lockstep({"test", file, "--out", directory.path("failed")});
   INFO(it.nodes << "\nseed " << seed << '\n' << read_file(run) << same << played.out << played.err);
@@ -366,7 +366,7 @@ TEST_CASE("a recording in parts, and one of the wall clock, are repeated") {
                                           R"(<root lockstep="1"><plugin name="motion"/>
 <BehaviorTree ID="T"><Advance name="a" step="0.001"/></BehaviorTree></root>)");
   const std::string test = directory.file("t.test.xml", R"(<scenarios lockstep="1" tree="t.xml">
-<scenario name="s" rate="1000"><leaf path="a" from="plugin"/><expect same-as="run.jsonl"/></scenario></scenarios>)");
+<scenario name="s" rate="1000"><leaf path="a" from="plugin"/><expect same-as="run.jsonl" tolerance="0.000001"/></scenario></scenarios>)");
   for (const std::string clock : {"virtual", "wall"}) {
     std::vector<std::string> command = {
         "run",  tree,     "--clock", clock,      "--rate",
