@@ -209,6 +209,7 @@ class Adviser {
     SearchLimits limits = bound(tree_, transitions);
     limits.stop_signal = stop_signal_;
     limits.cycles = cycles;
+    limits.joins = false;  // that is work which no limit of a short search counts
     const bool writes_idle = std::ranges::any_of(models.leaves, [](const LeafModel& it) {
       return it.writes == Writes::InAnyCall && !it.outputs.empty();
     });

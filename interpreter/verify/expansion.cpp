@@ -55,7 +55,7 @@ Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const P
                    double rate, const Symmetry& symmetry, const SearchLimits& limits)
     : limits_(limits),
       stepper_(tree, models, properties, rate, symmetry, limits.rising_answers,
-               limits.few_root_ticks, limits.few_ticks),
+               limits.few_root_ticks, limits.few_ticks, limits.joins),
       labeller_(tree, models, properties.size(), symmetry),
       coverage_(tree) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {

@@ -12,8 +12,9 @@
 namespace lockstep::host {
 namespace {
 
-// In a state with more of them, all combinations are tried.
-constexpr std::size_t kMostJoined = 200'000;
+// In a state with more of them, all combinations are tried. To join that many takes some tenths of
+// a second, in which nobody looks at limits.
+constexpr std::size_t kMostGroups = 8, kMostJoined = 30'000;
 
 bool shares_facts(const LeafModel& it) {
   return it.fact != kNoFact;
@@ -50,6 +51,7 @@ bool JointAnswers::begin_state(const RunState& run, const std::vector<LeafState>
   examples_.clear();
   if (children_.empty()) return false;
   make_groups(run, leaves);
+  if (groups_.size() > kMostGroups) return false;
   if (!find_outcomes(ticks_of) || has_twins() || are_few() || !join(context)) return false;
   add_examples();
   put(all_[0], 0, 0);

@@ -27,6 +27,7 @@ class Searcher {
         room_{limits, monotonic_now()} {
     result_.store = StateStore(limits.hash_bits);
     result_.rising_answers = limits.rising_answers;
+    result_.joins = limits.joins;
     result_.few_root_ticks = limits.few_root_ticks;
     result_.few_ticks = limits.few_ticks;
     if (limits.symmetry) result_.symmetry = Symmetry(tree, models, nodes_of(properties, tree));

@@ -26,7 +26,7 @@ struct SearchResult {
   std::string note;  // of Values: which entry
   int signal = 0;
   Symmetry symmetry;
-  bool rising_answers = true;  // as in the limits, and so are the next
+  bool rising_answers = true, joins = true;  // as in the limits, and so are the next
   std::uint64_t few_root_ticks = 0, few_ticks = 0;
   StateStore store;
   std::unique_ptr<TimeLimit> time_limit = std::make_unique<TimeLimit>();  // of both graphs

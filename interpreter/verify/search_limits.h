@@ -46,7 +46,8 @@ struct SearchLimits {
   unsigned hash_bits = 0;                                // in place of states; 0: states are kept
   bool symmetry = true;                                  // states of equal children count once
   bool rising_answers = true;  // of equal leaves in equal states: one of all orders
-  bool cycles = true;          // their edges have labels
+  bool joins = true;   // the answers of children that share nothing (verify/joint_answers.h)
+  bool cycles = true;  // their edges have labels
   std::uint64_t few_root_ticks = kFewRootTicks;
   std::uint64_t few_ticks = kFewTicks;
 };

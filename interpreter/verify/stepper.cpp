@@ -40,7 +40,7 @@ std::uint32_t cut_asker(const Tree& tree, const LeafModels& models) {
 
 Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                  double rate, const Symmetry& symmetry, bool rising_answers,
-                 std::uint64_t few_root_ticks, std::uint64_t few_ticks)
+                 std::uint64_t few_root_ticks, std::uint64_t few_ticks, bool joins)
     : deadlines_(rate),
       board_(tree),
       answers_(tree, rising_answers ? symmetry : kNoSymmetry, cut_asker(tree, models) + 1),
@@ -61,7 +61,8 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_properties_(property_bytes_),
       rounds_(few_root_ticks),
       points_(tree, models, nodes_of(properties, tree), few_ticks),
-      joint_(tree, models, symmetry, rising_answers && properties.empty() ? few_ticks : kAllTicks),
+      joint_(tree, models, symmetry,
+             joins && rising_answers && properties.empty() ? few_ticks : kAllTicks),
       has_gone_round_(tree.nodes.size() + properties.size()) {
   ticker_.set_deadlines(deadlines_);
   ticker_.keep_moments();

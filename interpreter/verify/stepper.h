@@ -33,7 +33,8 @@ class Stepper {
   // All must outlive this.
   Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
           double rate, const Symmetry& symmetry, bool rising_answers,
-          std::uint64_t few_root_ticks = kFewRootTicks, std::uint64_t few_ticks = kAllTicks);
+          std::uint64_t few_root_ticks = kFewRootTicks, std::uint64_t few_ticks = kAllTicks,
+          bool joins = false);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 

@@ -26,7 +26,7 @@ Tracer::Tracer(const Tree& tree, const LeafModels& models, std::span<const Prope
       models_(models),
       found_(found),
       stepper_(tree, models, properties, rate, found.symmetry, found.rising_answers,
-               found.few_root_ticks, found.few_ticks),
+               found.few_root_ticks, found.few_ticks, found.joins),
       labeller_(tree, models, properties.size(), found.symmetry) {}
 
 // One that the store has forgotten is made again.

@@ -108,18 +108,23 @@ class Player {
         line["nodes"].get(nodes) != simdjson::SUCCESS) {
       lines_.fail("not a line of a recording");
     }
-    if (std::exchange(begins_file_, false)) drop_from(tick);
+    const bool begins_file = std::exchange(begins_file_, false);
+    const bool is_after_gap = begins_file && tick > last_tick_ + 1;
+    if (begins_file) drop_from(tick);
+    last_tick_ = tick;
     for (const dom::element& change : nodes) take_change(change);
     const bool is_first = !std::exchange(has_line_, true);
     // A result that is there from the first line on may be of an activation in another file.
     if (ticks_.empty() && (status_ == "idle" || (status_ != "running" && !is_ticked_))) return true;
     began_before_ |= is_first && tick > 0 && status_ == "running";
+    has_gap_ |= is_after_gap && !is_first;
     return add(tick, time);
   }
 
   RecordedProgress played() {
     RecordedProgress it{Curve(std::move(ticks_)), Curve(std::move(seconds_)), end_};
     if (began_before_) it.lack = "began in an earlier file of the recording";
+    if (has_gap_) it.lack += std::string(it.lack.empty() ? "" : ", and ") + "lacks ticks";
     if (!is_over_) {
       it.lack += it.lack.empty() ? "" : ", and ";
       it.lack += "does not end in this one: the recording is truncated, or has another file";
@@ -181,6 +186,8 @@ class Player {
   std::string status_ = "idle";
   double progress_ = 0;
   bool is_ticked_ = true, has_line_ = false, begins_file_ = false;
+  double last_tick_ = 0;
+  bool has_gap_ = false;                         // between the files
   bool began_before_ = false, is_over_ = false;  // is_over_: its end is in the file, or its run's
   double first_tick_ = 0, first_time_ = 0;
   std::vector<Point> ticks_, seconds_;

@@ -109,6 +109,9 @@ TEST_CASE(
   outcome = play(directory.path("run.0003.jsonl"));
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.err, "began in an earlier file of the recording; `lockstep log cat"));
+  outcome = play(directory.file("gap.jsonl", read_file(directory.path("run.0001.jsonl")) +
+                                                 read_file(directory.path("run.0003.jsonl"))));
+  CHECK(contains(outcome.err, "lacks ticks; `lockstep log cat"));
   // A kill: the file just ends.
   const std::string text = read_file(directory.path("run.0001.jsonl"));
   outcome = play(directory.file("cut.jsonl", text.substr(0, text.find("{\"tick\":5,"))));
