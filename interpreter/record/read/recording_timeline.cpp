@@ -19,12 +19,14 @@ std::size_t memory_of(const std::vector<LeafLine>& lines) {
 
 // A recording that is read from its middle begins with values of which the ticks are not known.
 void Past::add(const RecordedTick& tick) {
-  const bool begins_later = entries.empty() && tick.whole;
+  // After a cut, the line has the whole state, too, but the entries are those that have changed.
+  const bool is_whole = tick.whole && tick.entries.data() == tick.whole->data();
+  const bool begins_later = entries.empty() && is_whole;
   for (const RecordedEntry& it : tick.entries) {
     if (it.entry >= entries.size()) entries.resize(it.entry + 1);
     EntryState& entry = entries[it.entry];
     const bool is_same = entry.is_long == !it.value && entry.text == it.value.value_or("");
-    if (tick.whole && entry.changed && is_same) continue;  // a whole state repeats what is known
+    if (is_whole && entry.changed && is_same) continue;  // a whole state repeats what is known
     entry.set(it.value ? &*it.value : nullptr, tick.tick);
     entry.is_older = begins_later;
   }
