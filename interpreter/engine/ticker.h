@@ -61,12 +61,12 @@ class Ticker : public NodeContext {
     std::string text, who;  // that option; the person
   };
   bool answer(NodeIndex node, Answer given, std::uint32_t seen);
-  // Those that came before the last tick.
-  std::span<const GivenAnswer> answers() const {
-    return answers_.empty() || answers_.back().number != state_.tick_number
-               ? std::span<const GivenAnswer>()
-               : std::span(answers_);
+  // Those that no tick has taken yet.
+  std::span<const GivenAnswer> waiting_answers() const {
+    return answers_of(state_.tick_number + 1);
   }
+  // Those that came before the last tick.
+  std::span<const GivenAnswer> answers() const { return answers_of(state_.tick_number); }
 
   // Between two ticks: in the last tick, the leaf did what it must not. The run stops, or it
   // continues (FaultPolicy). Then a running leaf fails in its next tick, and a completed one keeps
@@ -137,6 +137,10 @@ class Ticker : public NodeContext {
   std::uint32_t last_commit() const { return last_commit_; }
 
  private:
+  std::span<const GivenAnswer> answers_of(std::uint32_t tick) const {
+    return answers_.empty() || answers_.back().number != tick ? std::span<const GivenAnswer>()
+                                                              : std::span(answers_);
+  }
   bool has_to_commit(std::uint32_t place) const;
   void make_room_for_progress();
   void begin_tick();

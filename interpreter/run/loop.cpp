@@ -56,7 +56,7 @@ class Loop {
     // On the virtual clock the last tick, too, lasts until the next one would begin.
     end_.time =
         is_real_ ? clock_.now() - start_ : deadlines_.at(first_ + end_.ticks - end_.first_tick);
-    if (options_.control != nullptr) options_.control->end();
+    if (options_.control != nullptr) options_.control->end(run_.ticker());
     observe([&](Observers& it) { it.standing(run_.ticker()); });
     run_.halt();
     end_.budget = run_.end_budget();

@@ -35,14 +35,16 @@ void RunControl::wait_for_effects(Nanoseconds longest) {
 }
 
 void RunControl::report_effects() {
+  if (std::exchange(reported_, taken_) == taken_) return;
   {
     const Lock lock(mutex_);
-    if (std::exchange(obeyed_, taken_) == taken_) return;
+    obeyed_ = taken_;
   }
   effects_.ring();
 }
 
-void RunControl::end() {
+void RunControl::end(const Ticker& ticker) {
+  for (const GivenAnswer& it : ticker.waiting_answers()) tell_vain_(it, Vain::RunEnds);
   is_paused_ = false;
   is_attended_ = true;
   has_ended_.store(true, std::memory_order_release);
@@ -90,7 +92,7 @@ bool RunControl::obey_new(Ticker& ticker, Blackboard& blackboard) {
     has_changed |= effect == Effect::OnState;
     if (effect != Effect::None) continue;
     vain.push_back(taken_);
-    tell_vain_(order);
+    tell_vain_({order.node, 0, order.text, order.who}, Vain::NobodyWaits);
   }
   const Lock lock(mutex_);
   state_.speed = speed_;

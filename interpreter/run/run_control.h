@@ -63,8 +63,9 @@ class RunControl {
 
   // Before the run: it stands while nobody has attended for so long, by the wall clock.
   void need_attendance(Nanoseconds longest);
-  // Likewise: who is told, on the thread of the loop, of an answer for which nobody waits.
-  void tell_vain_answers(std::function<void(const Order& order)> tell) {
+  // Likewise: who is told, on the thread of the loop, of an answer that nobody takes, and why.
+  enum class Vain : std::uint8_t { NobodyWaits, RunEnds };
+  void tell_vain_answers(std::function<void(const GivenAnswer& answer, Vain why)> tell) {
     tell_vain_ = std::move(tell);
   }
 
@@ -91,7 +92,7 @@ class RunControl {
   // The run stands, or goes on: for state(). Until then a pause is only on its way.
   void report_standing(bool stands);
   // The run ends: it does not wait for anybody, whatever has paused it.
-  void end();
+  void end(const Ticker& ticker);
   // Returns when there are orders, after `longest`, or when a signal comes.
   void wait(Nanoseconds longest);
 
@@ -116,8 +117,9 @@ class RunControl {
   Bell bell_, effects_;
 
   // The loop's.
-  std::function<void(const Order& order)> tell_vain_ = [](const Order&) {};
-  std::uint64_t taken_ = 0;  // orders
+  std::function<void(const GivenAnswer& answer, Vain why)> tell_vain_ = [](const GivenAnswer&,
+                                                                           Vain) {};
+  std::uint64_t taken_ = 0, reported_ = 0;  // orders
   bool is_paused_ = false, is_halted_ = false;
   std::optional<Nanoseconds> longest_alone_ = {};  // none: nobody needs to attend
   std::optional<Nanoseconds> attended_ = {};       // when somebody did, or the run began

@@ -217,6 +217,22 @@ TEST_CASE("an order that can have no effect is refused, and an answer that comes
                  "the answer 'yes' (by page) has no effect: Main/Sequence/sure waits for none"));
 }
 
+TEST_CASE("an answer that a paused run has not taken when it ends is reported") {
+  for (const char* how : {"halt", "resume"}) {
+    Controlled it(tree_text("<Sequence memory='true'><Ask name='sure' text='Sure?'/>"
+                            "</Sequence>"),
+                  {"--clock", "virtual"});
+    it.order({{"do", "step"}});
+    it.wait_for_tick(0);
+    CHECK(it.order({{"do", "answer"}, {"answer", "yes"}}).status == 204);
+    it.order({{"do", how}});
+    it.events().finish();
+    CHECK(contains(it.run().process().finish().err,
+                   "the answer 'yes' (by page) has no effect: Main/Sequence/sure had not taken it "
+                   "when the run ended") == (how == std::string("halt")));
+  }
+}
+
 TEST_CASE("a paused run ends at a signal within a second") {
   for (const int number : {SIGTERM, SIGINT}) {
     for (const char* clock : {"wall", "virtual"}) {

@@ -136,9 +136,11 @@ Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const R
 }
 
 void Watchers::tell_vain_answers(const Print& note) {
-  control_->tell_vain_answers([this, note](const RunControl::Order& order) {
-    note(fmt::format("the answer '{}' (by {}) has no effect: {} waits for none",
-                     printable(order.text), order.who, printable(shape_.nodes[order.node].path)));
+  control_->tell_vain_answers([this, note](const GivenAnswer& it, RunControl::Vain why) {
+    note(fmt::format("the answer '{}' (by {}) has no effect: {} {}", printable(it.answer), it.who,
+                     printable(shape_.nodes[it.node].path),
+                     why == RunControl::Vain::RunEnds ? "had not taken it when the run ended"
+                                                      : "waits for none"));
   });
 }
 
