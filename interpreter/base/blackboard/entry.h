@@ -16,7 +16,7 @@ enum class Typing : std::uint8_t {
 
 // Whoever looks for changes compares counts, not values: a recorder and a property `changes`, a
 // node such as EntryUpdated and a parameter that was read before `writes`. So a value that changes
-// without a count is a change that nobody sees, and only `to_write` gives access to the value.
+// without a count is one that no watcher finds, and only `to_write` gives access to the value.
 class Entry {
  public:
   Entry() = default;

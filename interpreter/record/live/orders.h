@@ -13,7 +13,7 @@ namespace lockstep::host {
 // The order that the text has, checked: it can be carried out in a run of this tree.
 Result<RunControl::Order> read_order(const Shape& shape, bool is_real_time, std::string text);
 
-// Why nobody needs to attend.
+// The refusal of `attend` in a run without --attended.
 Problem vain_attendance();
 
 // When the run is to pause, as clients say it: "begins", "completes", "barrier", "succeeds" or

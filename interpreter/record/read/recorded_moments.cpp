@@ -49,7 +49,7 @@ RecordedMoments::RecordedMoments(const RecordingHeader& header)
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
     limits_.push_back(&limit_[node]);
     is_guard_[node] = header.nodes[node].is_guard;
-    if (const auto parent = header.nodes[node].parent) {  // not beside the tree
+    if (const auto parent = header.nodes[node].parent) {  // no barrier, no pool
       is_leaf_[node] = true;
       is_leaf_[*parent] = false;
     }
@@ -128,8 +128,8 @@ void RecordedMoments::read_ended(const RecordedTick& tick) {
 }
 
 // Whether the whole tree was ticked again from one moment to the next, since a node had asked for
-// it. Else a node that is in its tick ticks a child again that had completed, or resets something;
-// no leaf gets a tick while it is running that it has had.
+// it. Otherwise a node that is in its tick ticks a child again that had completed, or resets
+// something; no leaf gets a tick while it is running that it has had.
 bool RecordedMoments::is_ticked_again(std::span<const NodeState> was,
                                       std::span<const NodeState> now) const {
   if (was[0].status() != Status::Running || !now[0].ticked()) return false;

@@ -198,7 +198,7 @@ void CheckpointWriter::flush() {
   }
 }
 
-// Rung only by who waits: else it looks twice a tick, but not too often.
+// A caller that waits rings it. Otherwise it looks twice a tick, but not too often.
 void CheckpointWriter::write_until_stopped() {
   const Nanoseconds pause = options_.real_time ? pause_of(options_.period) : kSyncOfTime;
   std::string lasting;     // of the last one that was written

@@ -14,7 +14,7 @@ Site in_tag(const TolerantTree& tree, const TolerantElement& element, std::size_
     if (!it.has_quote) continue;
     const ByteRange value = range_of(tree, it.value);
     if (value.has(byte)) return {Site::Part::AttributeValue, &element, &it, value};
-    // The value of an open quote ends before its blanks, and whoever types goes on behind them.
+    // The value of an open quote ends before its blanks, and the person who types is behind them.
     if (it.is_closed || byte < value.end) continue;
     const std::string_view between = tree.text.substr(value.end, byte - value.end);
     if (between.find_first_not_of(" \t") == between.npos)
