@@ -14,6 +14,12 @@ LOCKSTEP, TREES = sys.argv[1:3]
 PATIENCE = 30  # s
 
 
+def wait_until(is_true, run, what):
+    end = time.monotonic() + PATIENCE
+    while not is_true():
+        assert run.poll() is None and time.monotonic() < end, what
+
+
 class Terminal:
     "A run in a terminal of its own."
 
@@ -29,7 +35,8 @@ class Terminal:
     def wait_for(self, pattern):
         end = time.monotonic() + PATIENCE
         while not (found := re.search(pattern, self.seen)):
-            if not select.select([self.main], [], [], max(0.0, end - time.monotonic()))[0]:
+            left = end - time.monotonic()
+            if left < 0 or not select.select([self.main], [], [], left)[0]:
                 raise AssertionError(f"no {pattern!r} in {self.seen!r}")
             try:
                 self.seen += os.read(self.main, 65536).decode()
@@ -159,6 +166,7 @@ class HeldQuestion:
 <AlwaysSuccess/><Ask name="q" text="held?" options="a;b"/></Sequence>{other_child}</ParallelAbsolute></BehaviorTree></root>""")
         self.begin()
         self.run.wait_for(r"q asks: held\? \(a, b\)")
+        self.run.wait_for(r"\(1 to 2\) ")  # what was typed before is no answer
 
     def begin(self):
         self.run = Terminal(self.directory, self.tree, "--checkpoint", self.checkpoint, "--resume", "--record", self.recording)
@@ -167,8 +175,7 @@ class HeldQuestion:
         return json.loads(self.run.other("checkpoint", self.checkpoint, "--json").stdout)["ticks"]
 
     def wait_for_tick(self, tick):
-        while self.kept_ticks() <= tick:
-            assert self.run.run.poll() is None
+        wait_until(lambda: self.kept_ticks() > tick, self.run.run, f"no tick after {tick} is kept")
 
     def answered_at(self):
         with open(self.recording) as file:
@@ -184,9 +191,8 @@ class HeldQuestion:
 def test_a_question_that_has_its_answer_is_not_asked_again_after_a_cut(directory):
     held = HeldQuestion(directory, "<AlwaysRunning/>")
     held.run.type("b")
-    while (tick := held.answered_at()) is None:
-        assert held.run.run.poll() is None
-    held.wait_for_tick(tick + 1)
+    wait_until(lambda: held.answered_at() is not None, held.run.run, "no answer in the recording")
+    held.wait_for_tick(held.answered_at() + 1)
     held.cut_and_resume()
     held.wait_for_tick(held.kept_ticks() + 2)
     listed = held.run.other("answer")
