@@ -63,8 +63,6 @@ void apply(const FailureCase& it, double rate, LeafModels& models) {
   }
 }
 
-constexpr std::size_t kStatesBetweenLooks = 256;  // at the time
-
 class FailureTable {
  public:
   FailureTable(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
@@ -185,11 +183,9 @@ class FailureTable {
       return true;
     };
     Tracer tracer(tree_, models, properties_, options_.rate, found);
-    std::size_t state = 0;
-    for (; state < found.store.size(); ++state) {
-      if (state % kStatesBetweenLooks == 0 && is_over(until)) break;
-      tracer.for_each_tick(static_cast<StateId>(state), look);
-    }
+    StateId state = 0;
+    const auto gives_up = [&] { return is_over(until); };
+    while (state < found.store.size() && tracer.for_each_tick(state, gives_up, look)) ++state;
     for (std::uint32_t leaf = 0; leaf < is_halted.size(); ++leaf)
       if (is_halted[leaf]) halted.push_back(tree_.leaves[leaf].node);
     return state == found.store.size();

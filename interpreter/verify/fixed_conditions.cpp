@@ -155,10 +155,10 @@ std::vector<std::string> false_for_ever(const Tree& tree, const LeafModels& mode
   std::uint64_t ticks = 0;
   for (StateId state = 0; state < reached.size(); ++state) {
     if (!reached[state]) continue;
-    const bool is_done = tracer.for_each_tick(state, [&](const Stepper& stepper) {
+    const auto is_over = [&] { return until && monotonic_now() > *until; };
+    const bool is_done = tracer.for_each_tick(state, is_over, [&](const Stepper& stepper) {
       conditions.look_at(stepper.ticker());
-      return (ticks += stepper.root_ticks()) <= kMostTicksFromTrap &&
-             !(until && monotonic_now() > *until);
+      return (ticks += stepper.root_ticks()) <= kMostTicksFromTrap;
     });
     if (!is_done) return {};
   }

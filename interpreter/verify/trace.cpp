@@ -192,13 +192,16 @@ void Tracer::play(const TracedRun& run, const After& after) {
   for (std::size_t i = 0; i < run.size(); ++i) after(stepper_, tick(run[i]), i);
 }
 
-bool Tracer::for_each_tick(StateId from, const std::function<bool(const Stepper&)>& call) {
+bool Tracer::for_each_tick(StateId from, const std::function<bool()>& gives_up,
+                           const std::function<bool(const Stepper&)>& call) {
   stepper_.load(state_of(from), from == 0);
+  stepper_.set_gives_up(gives_up);
   bool goes_on = true;
   do {
     stepper_.tick();
-    goes_on = call(stepper_);
+    goes_on = stepper_.is_done() && call(stepper_) && !gives_up();
   } while (goes_on && stepper_.next());
+  stepper_.set_gives_up(nullptr);
   return goes_on;
 }
 
