@@ -162,12 +162,13 @@ class TolerantReader {
       line = line.substr(0, closed);
       if (looks_like_attribute(line)) line = line.substr(0, line.find_last_of(" \t"));
     }
-    std::size_t end = line.find('<');
-    for (const std::string_view mark : {"/>", ">"}) {
-      if (line.ends_with(mark)) end = std::min(end, line.size() - mark.size());
-    }
-    line = line.substr(0, end);
-    while (!line.empty() && is_xml_blank(line.back())) line.remove_suffix(1);
+    const auto drop_blanks = [&] {
+      while (!line.empty() && is_xml_blank(line.back())) line.remove_suffix(1);
+    };
+    line = line.substr(0, line.find('<'));
+    drop_blanks();
+    if (line.ends_with('>')) line.remove_suffix(line.ends_with("/>") ? 2 : 1);
+    drop_blanks();
     return open + line.size();
   }
 

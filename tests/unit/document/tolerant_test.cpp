@@ -50,6 +50,8 @@ TEST_CASE("tolerant: what is known of a broken text") {
       {"<a><b sec=\"\n<c x=\"1\"/></a>", "a(b?[sec=?] c[x=1])"},
       {"<a><b sec=\"/>\n<c x=\"1\"/></a>", "a(b[sec=?] c[x=1])"},
       {"<a><b sec=\"{ke/>\n<c x=\"1\"/></a>", "a(b[sec={ke?] c[x=1])"},
+      {"<a><b sec=\"{ke/><c x='1'/></a>", "a(b[sec={ke?] c[x=1])"},
+      {"<a><b sec=\"{ke > <c x='1'/></b></a>", "a(b[sec={ke?](c[x=1]))"},
       {"<a><b sec=\"${a\n</a>", "a(b?[sec=${a?])"},
       {"<a><b sec=\"{k name=\"n\"/></a>", "a(b[sec={k? name=n])"},
       {"<a><b>", "a(b)"},
