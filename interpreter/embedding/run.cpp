@@ -425,7 +425,9 @@ bool lockstep_run_record(lockstep_run* run, const char* file) {
   return guarded([&] {
     if (run == nullptr || file == nullptr) return fail("an argument is NULL");
     if (!may_be_watched(*run)) return false;
-    const auto wrong = run->watchers.record(file);
+    const auto wrong = run->watchers.record(file, [run](const std::string& error) {
+      run->leaf_log()("lockstep", LOCKSTEP_LOG_WARNING, error);
+    });
     return !wrong || refuse(*wrong);
   });
 }

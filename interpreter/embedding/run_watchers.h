@@ -2,6 +2,7 @@
 // Only within embedding/.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,8 +26,10 @@ class RunWatchers {
 
   // The run goes on after a cut, which is logged. Before who logs is there.
   void go_on(std::uint64_t first_tick, Nanoseconds gap, std::string text);
-  // Both before the first tick. What is wrong, or nothing.
-  std::optional<Problem> record(std::string file);
+  // These two before the first tick. What is wrong, or nothing; `on_error` is told, once, when the
+  // recording cannot be written any more.
+  std::optional<Problem> record(std::string file,
+                                std::function<void(const std::string& error)> on_error);
   // The link.
   Result<std::string> monitor(const std::string& address);
   // Also after it; null: not any more.

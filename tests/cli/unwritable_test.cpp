@@ -174,4 +174,29 @@ TEST_CASE("a signal ends the wait for a reader of stdout, also when it comes bef
   }
 }
 
+// What is only written when all is known: the table of a compressed file, all of a short MCAP, the
+// images that gnuplot draws, which ends well on a full disk.
+TEST_CASE("a disk that is full at the very end is an error of what was to be written") {
+  const Shell shell;
+  const std::string run = "lockstep run tree.xml --clock virtual --view none --record ";
+  REQUIRE(shell.call(run + "whole.jsonl.zst").code == 0);
+  const std::string carry = "'" LOCKSTEP_SOURCE_DIR "/trees/carry_together/carry.xml'";
+  struct Row {
+    std::string limit, command, path;
+    int code;
+  };
+  for (const Row& it : std::vector<Row>{
+           {"$(($(stat -c %s whole.jsonl.zst) - 10))", run + "cut.jsonl.zst", "cut.jsonl.zst", 0},
+           {"1000", run + "cut.mcap --on-record-error stop", "cut.mcap", 8},
+           {"5000", "lockstep team " + carry + ",me=left " + carry + ",me=right --record team",
+            "team/left.jsonl", 8},
+           {"15000", "lockstep study tree.xml --runs 2 --measure duration --out s", "s/plots/",
+            2}}) {
+    INFO(it.command);
+    const Outcome outcome = shell.call("prlimit --fsize=" + it.limit + " " + it.command);
+    CHECK(outcome.code == it.code);
+    CHECK(contains(outcome.err, "error: cannot write '" + it.path));
+  }
+}
+
 }  // namespace lockstep::host::test

@@ -1317,6 +1317,20 @@ TEST_CASE("a run of a program is recorded and has a monitor, from its first tick
   CHECK_THROWS(runtime::Run(project).record("/no/such/folder/run.jsonl"));
 }
 
+TEST_CASE("the log of a program learns once that its recording cannot be written") {
+  const runtime::Project project = project_of("<Step/>");
+  std::string logged;
+  runtime::RunSettings settings;
+  settings.log = [&](const std::string& who, lockstep::LogLevel, const std::string& text) {
+    logged += who + ": " + text + "\n";
+  };
+  runtime::Run run(project, settings);
+  run.record("/dev/full");
+  for (int i = 0; run.tick(i * 0.01) == Status::Running; ++i) {
+  }
+  CHECK(logged == "lockstep: cannot write '/dev/full': No space left on device\n");
+}
+
 TEST_CASE("on the virtual clock, the last recorded tick of a program lasts a whole period") {
   const runtime::Project project = project_of("<Step step=\"0.001\"/>");
   const std::string file = std::filesystem::temp_directory_path() /

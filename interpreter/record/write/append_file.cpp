@@ -78,10 +78,7 @@ AppendFile::AppendFile(const std::string& path, std::size_t queue, FileForm form
 }
 
 AppendFile::~AppendFile() {
-  if (!thread_.joinable()) return;
-  stopping_.store(true, std::memory_order_release);
-  work_.ring();
-  thread_.join();
+  end();
   leave(this);
 }
 
@@ -115,6 +112,13 @@ void AppendFile::flush() {
     work_.ring();
     done_.wait(seen, kLongestDelay);
   }
+}
+
+void AppendFile::end() {
+  if (!thread_.joinable()) return;
+  stopping_.store(true, std::memory_order_release);
+  work_.ring();
+  thread_.join();
 }
 
 void AppendFile::write_until_stopped() {

@@ -45,12 +45,12 @@ class AppendFile {
                       FileParts parts = {});
   // The header for all parts. Before the first push().
   void set_header(std::string header) { header_ = std::move(header); }
-  // Flushes.
+  // Completes the file: end().
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
-  // Only one thread at a time may call these three. A packet consists of whole lines: its text ends
+  // Only one thread at a time may call these. A packet consists of whole lines: its text ends
   // in '\n'.
 
   // Never waits. Returns false if the queue is full or writing has failed; then the packet is not
@@ -61,6 +61,9 @@ class AppendFile {
   void write(const Packet& packet);
   // Returns when everything is written, or writing has failed.
   void flush();
+  // Completes the file: a compressed one or one of another format gets its last bytes only now, and
+  // this may fail. Returns when it has them, or writing has failed. Nothing may be pushed after it.
+  void end();
   // From now on, a pipe or a device that takes nothing for so long is an error. Before, it is
   // waited for without end. (The system lets nobody stop waiting for a disk.)
   void set_patience(Nanoseconds patience);

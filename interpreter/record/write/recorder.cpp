@@ -144,6 +144,8 @@ void Recorder::run_ended(const Moment& moment, const RunEnd& end) {
   const auto patience = end.budget == nullptr ? std::nullopt : end.budget->share();
   if (patience) file_.set_patience(*patience);
   write(packets_.end(moment, end, lost_));
+  file_.end();
+  tell_error();
   if (patience && file_.ran_out_of_patience()) {
     end.budget->used_up_by(fmt::format("who reads the recording '{}'", options_.path));
   }

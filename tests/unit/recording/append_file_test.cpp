@@ -124,6 +124,16 @@ TEST_CASE("a file that cannot grow ends after its last whole line") {
   CHECK(path.text() == lines(0, 1));
 }
 
+TEST_CASE("a compressed file that has no room for its last bytes reports it when it is completed") {
+  const TemporaryPath path;
+  AppendFile file(path.path(), kQueue, {.compression = Compression::Zstd});
+  file.write(packet(lines(0, 3)));
+  CHECK(file.error().empty());
+  const FileSizeLimit limit(path.text().size());
+  file.end();
+  CHECK(file.error() == "cannot write '" + path.path() + "': File too large");
+}
+
 TEST_CASE("a file that was emptied by others is not filled up when it is cut back") {
   const TemporaryPath path;
   {

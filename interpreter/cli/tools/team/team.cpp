@@ -215,10 +215,16 @@ int simulate(TeamOptions options) {
   for (std::thread& it : threads) it.join();
   const int failed =
       write_results(options.json ? json_of(robots, network) : text_of(robots, network));
+  int lost = kExitSuccess;
+  for (const auto& it : robots) {
+    if (it->recording_error().empty()) continue;
+    print_error(it->recording_error());
+    lost = kExitRecording;
+  }
   if (const int signal = StopSignals::received(); signal != 0) return kExitSignal + signal;
   const bool all_succeed = std::ranges::all_of(
       robots, [](const auto& it) { return it->summary().result == RunResult::Success; });
-  return first_failure(failed, all_succeed ? kExitSuccess : kExitFailure);
+  return first_failure(failed, all_succeed ? lost : kExitFailure);
 }
 
 std::function<int()> define_team(CLI::App& app) {
@@ -267,7 +273,7 @@ extern const Command kTeamCommand{
     "team", "Simulate robots that are in step, with a network that is late or cut",
     "All robots are in this process, on one virtual clock: the same seed gives the same runs.\n"
     "Exit code: 0 all succeed, 1 one fails or does not end, 3 invalid tree, 4 plugin\n"
-    "refused, 2 usage.\n"
+    "refused, 8 all succeed, but a recording could not be written, 2 usage.\n"
     "\n"
     "Examples:\n"
     "  lockstep team carry.xml,me=left carry.xml,me=right\n"
