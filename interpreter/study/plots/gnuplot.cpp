@@ -73,6 +73,15 @@ std::string readable(std::string_view text) {
   return lines;
 }
 
+// gnuplot 5.4 does not look at what comes of its writes: on a full disk it ends well.
+bool is_whole(const std::filesystem::path& image) {
+  std::ifstream file(image, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (image.extension() == ".svg") return std::string_view(bytes).find("</svg>") != bytes.npos;
+  constexpr std::string_view kEndOfPng = "IEND\xAE\x42\x60\x82";
+  return bytes.ends_with(kEndOfPng);
+}
+
 // "" when gnuplot has made the images.
 std::string failure(const GnuplotEnd& ended) {
   if (ended.stopped) return "interrupted while gnuplot drew";
@@ -156,6 +165,12 @@ PlotResult draw(const PlotFiles& files) {
   result.error = failure(ended);
   result.gnuplot_missing = ended.reason == ENOENT;
   if (ended.stopped) return result;
+  for (const std::string& image : files.images) {
+    if (result.ok() && !is_whole(work.path() / image)) {
+      result.error = fmt::format("cannot write '{}': gnuplot wrote a part of it, as on a full disk",
+                                 printable((directory / image).string()));
+    }
+  }
   if (result.ok()) finished.insert(finished.end(), files.images.begin(), files.images.end());
   for (const std::string& name : finished) {
     const std::string made = work.path() / name, wanted = directory / name;
