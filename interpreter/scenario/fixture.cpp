@@ -4,6 +4,7 @@
 
 #include "engine/compile.h"
 #include "judge/measure/property_steps.h"
+#include "run/loading/project_file.h"
 #include "run/shape_of.h"
 #include "tree/pace.h"
 
@@ -52,7 +53,7 @@ std::shared_ptr<const Fixture> Fixture::load(const Key& key, const std::string* 
                                              const LoadOptions& options, Diagnostics& diagnostics,
                                              const std::shared_ptr<PluginSet>& plugins,
                                              LoadFailure& failure) {
-  LoadOptions load = options;
+  LoadOptions load = with_project_file(key.tree, options, diagnostics);
   load.arguments = key.arguments;
   load.values = key.values;
   load.later = key.later;

@@ -86,6 +86,11 @@ TestRun::LoadedFixture& TestRun::fixture(const Fixture::Key& key) {
         !options_.changed_tree.empty() && it->first.tree == options_.changed_tree;
     loaded.fixture = Fixture::load(it->first, is_changed ? &options_.changed_text : nullptr,
                                    options_.load, diagnostics, plugins_, loaded.failure);
+    // Its leaf would succeed, and with it a scenario of a tree that no run can load.
+    for (const Diagnostic& about : diagnostics.all()) {
+      const bool is_of_tree = about.code.text() == "unknown-tree"_code.text();
+      if (is_of_tree && about.severity == Severity::Warning) diagnostics_.add(about);
+    }
     if (loaded.fixture == nullptr) {
       loaded.errors = errors_of(diagnostics);
       if (loaded.errors.empty()) loaded.errors.push_back({.message = "the tree cannot be loaded"});
@@ -96,13 +101,18 @@ TestRun::LoadedFixture& TestRun::fixture(const Fixture::Key& key) {
 
 // Values declare entries, as `--set` does; one that comes later is unset before. Most trees need
 // none, so that scenarios with different values share a fixture. What leaf models do depends on
-// them.
+// them, and without strict types the type of an entry.
 void TestRun::load_stage(Part& part) {
   Fixture::Key key = Fixture::key_of(*part.scenario);
+  Fixture::Key with_values = key;
+  with_values.values = Fixture::start_values(*part.scenario);
+  with_values.later = Fixture::later_values(*part.scenario);
   const bool needs_values = part.scenario->is_verified || !part.scenario->leaves.empty();
   if (needs_values || fixture(key).fixture == nullptr) {
-    key.values = Fixture::start_values(*part.scenario);
-    key.later = Fixture::later_values(*part.scenario);
+    key = std::move(with_values);
+  } else if (!fixture(key).fixture->tree().rules->strict_types &&
+             fixture(with_values).fixture != nullptr) {
+    key = std::move(with_values);
   }
   const LoadedFixture& loaded = fixture(key);
   part.fixture = loaded.fixture;

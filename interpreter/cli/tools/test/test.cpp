@@ -52,6 +52,7 @@ class TestCommand {
     TestRun tests(
         files(), [&](const auto&, const Scenario& it) { return is_chosen(it); }, test_options());
     if (tests.count() == 0) return tell_none();
+    print_diagnostics(tests.diagnostics(), Severity::Warning);
     if (would_overwrite_input(tests)) return kExitUsage;
     tests.run([&](const ScenarioReport& report) { add(report); });
     counts_.took = monotonic_now() - began;
