@@ -72,25 +72,41 @@ std::string other_command(const std::string& file) {
 // of them lacks may be in another one. Files are known by file_identity().
 class Neighbors {
  public:
-  void add(const Project& project) {
+  // `path`: as it was given.
+  void add(const std::string& path, const Project& project) {
+    const std::string front = file_identity(path);
+    given_.emplace(front, path);
     for (const auto& document : project.documents) {
       const std::string file = file_identity(document->source()->path());
-      if (document != project.documents.front()) included_.insert(file);
+      if (document != project.documents.front()) included_by_[file].insert(front);
       add(*document, file);
     }
+    if (project.documents.front()->find_attribute(0, "main_tree_to_execute") != nullptr)
+      missions_.insert(front);
   }
 
   const TreeIds& trees() const { return trees_; }
   // Another one includes it, or uses a tree of it.
   bool is_part(const std::string& path) const {
     const std::string file = file_identity(path);
-    if (included_.contains(file)) return true;
+    if (included_by_.contains(file)) return true;
     const auto trees = trees_in_.find(file);
     return trees != trees_in_.end() && std::ranges::any_of(trees->second, [&](const auto& id) {
              const auto users = users_.find(id);
              return users != users_.end() &&
                     std::ranges::any_of(users->second, [&](const auto& it) { return it != file; });
            });
+  }
+
+  // The given file with which this one is checked, since it includes it, has what it uses, such as
+  // plugins, and is itself no part of another; "": there is none, or this one has a main tree.
+  std::string whole_of(const std::string& path) const {
+    const std::string file = file_identity(path);
+    const auto wholes = included_by_.find(file);
+    if (wholes == included_by_.end() || missions_.contains(file)) return "";
+    const auto whole = std::ranges::find_if(
+        wholes->second, [this](const auto& it) { return !included_by_.contains(it); });
+    return whole == wholes->second.end() ? "" : given_.at(*whole);
   }
 
  private:
@@ -112,7 +128,9 @@ class Neighbors {
   }
 
   TreeIds trees_;
-  std::set<std::string> included_;
+  std::map<std::string, std::set<std::string>> included_by_;
+  std::map<std::string, std::string> given_;  // their paths
+  std::set<std::string> missions_;            // which name a main tree
   std::map<std::string, TreeIds> trees_in_;             // each file
   std::map<std::string, std::set<std::string>> users_;  // the files that use a tree
 };
@@ -124,7 +142,7 @@ Neighbors neighbors_of(const std::vector<std::string>& files) {
     std::error_code unused;
     if (!other_command(file).empty() || !std::filesystem::is_regular_file(file, unused)) continue;
     Diagnostics told_later;
-    if (const auto project = load_project(file, {}, told_later)) neighbors.add(*project);
+    if (const auto project = load_project(file, {}, told_later)) neighbors.add(file, *project);
   }
   return neighbors;
 }
@@ -245,6 +263,8 @@ class Checking {
       if (const std::string other = other_command(tree); !other.empty()) {
         diagnostics.note("wrong-root"_code, {tree}, "is not a tree file", other + " reads it");
         print_diagnostics(diagnostics, Severity::Note);
+      } else if (const std::string whole = files.neighbors.whole_of(tree); !whole.empty()) {
+        tell_part(tree, whole);
       } else {
         check(tree, files.options_for(tree, options_));
       }
@@ -264,6 +284,12 @@ class Checking {
     if (write_ == nullptr || tree != "-") return {tree};
     auto text = read_stdin(Document::kMaxBytes);
     return text ? Given{"stdin", std::move(*text)} : Given{tree};
+  }
+
+  void tell_part(const std::string& tree, const std::string& whole) {
+    if (write_ != nullptr || written_ != kExitSuccess) return;
+    written_ = write_results(
+        fmt::format("{}: checked with {}, which includes it\n", printable(tree), printable(whole)));
   }
 
   void check(const std::string& tree, LoadCommandOptions load) {

@@ -263,17 +263,18 @@ TEST_CASE("check takes the files of a project, each as it is") {
   CHECK(run_lockstep({"check", "--strict", part, uses}).code == 0);
 }
 
-TEST_CASE("check takes a part that another file includes without what that gives to it") {
+TEST_CASE("check takes a part with a file that includes it, which has what it uses") {
   const TemporaryDirectory directory;
   const std::string part =
       directory.file("part.xml",
                      "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Sequence memory=\"true\">"
-                     "<Check code=\"far > 2\"/><SyncProgress barrier=\"meet\"><SubTree "
+                     "<Check code=\"far > 2\"/><Advance step=\"${step}\"/><SyncProgress barrier=\"meet\"><SubTree "
                      "ID=\"Other\"/></SyncProgress>"
                      "</Sequence></BehaviorTree></root>");
   const std::string main = directory.file(
       "main.xml",
       "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><include path=\"part.xml\"/>"
+      "<plugin name=\"motion\"/><arg name=\"step\" default=\"0.5\"/>"
       "<barrier name=\"meet\" barriers=\"0.5\"/><BehaviorTree ID=\"Main\"><Parallel>"
       "<SubTree ID=\"Part\" far=\"3\"/><SyncProgress barrier=\"meet\"><Wait seconds=\"1\"/>"
       "</SyncProgress></Parallel></BehaviorTree><BehaviorTree ID=\"Other\"><Wait seconds=\"1\"/>"
@@ -282,7 +283,18 @@ TEST_CASE("check takes a part that another file includes without what that gives
   const Outcome both = run_lockstep({"check", part, main});
   INFO(both.err);
   CHECK(both.code == 0);
-  CHECK(both.out == part + ": ok\n" + main + ": ok\n");
+  CHECK(both.out == part + ": checked with " + main + ", which includes it\n" + main + ": ok\n");
+  CHECK(run_lockstep({"check", directory.path("")}).code == 0);
+  // One with a mistake, and one that is a mission itself.
+  directory.file("part.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Advance steps=\"1\"/>"
+                             "</BehaviorTree></root>");
+  const Outcome wrong = run_lockstep({"check", part, main});
+  CHECK(wrong.code == 3);
+  CHECK(contains(wrong.err, "part.xml:1:"));
+  directory.file("part.xml",
+                 "<root lockstep=\"1\" main_tree_to_execute=\"Part\"><BehaviorTree ID=\"Part\">"
+                 "<Advance step=\"0.5\"/></BehaviorTree></root>");
+  CHECK(contains(run_lockstep({"check", part, main}).err, "unknown node 'Advance'"));
 }
 
 TEST_CASE("check warns of a branch that can never run") {
