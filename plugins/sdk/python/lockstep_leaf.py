@@ -21,14 +21,20 @@
 
 docs/programs.md has the rest. `python3 -m lockstep_leaf sweep.py` tries the leaves by hand.
 """
+import os
+import sys
+
+# A program may have the name of a module of Python, such as select.py: these and what they import must not take it for that.
+_beside = os.path.dirname(os.path.realpath(sys.argv[0]))
+_path, sys.path = sys.path, [it for it in sys.path if os.path.realpath(it or ".") != _beside]
 import atexit
 import json
 import math
-import os
 import random
-import sys
 import threading
 import traceback
+
+sys.path = _path
 
 __all__ = ["Action", "Condition", "Cut", "Failed", "Fixed", "InOut", "Output", "Port", "Refused", "Skipped", "Waiting", "say",
            "serve"]
