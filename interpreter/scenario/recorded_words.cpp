@@ -13,6 +13,7 @@
 #include "base/core/wording.h"
 #include "engine/writers.h"
 #include "judge/measure/entry_changes.h"
+#include "judge/summary/standstills.h"
 #include "judge/summary/statistics.h"
 #include "record/read/recorded_moments.h"
 #include "record/read/recording_parts.h"
@@ -77,6 +78,12 @@ class WordMaker {
            "the scenario ends with it",
            tick.tick);
     }
+    for (const LeafLine& it : tick.logs) {
+      if (it.text.starts_with(it.who + std::string(kIsFailed))) {
+        note(Lacks::Intervention, "'--stall-fail' ended '{}' in tick {}: the scenario waits on",
+             it.who, tick.tick);
+      }
+    }
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, moment, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) {
       if (is_of_tree(tick, entry)) continue;
@@ -131,7 +138,7 @@ class WordMaker {
     return is_initial || is_ticked();
   }
 
-  enum class Lacks { Moments, Faults, Value, OtherValues, TooLong, Decision, Result, LastHalt };
+  enum class Lacks { Moments, Faults, Value, OtherValues, TooLong, Decision, Result, LastHalt, Intervention };
 
   // Each once.
   template <class... Args>

@@ -187,6 +187,15 @@ TEST_CASE("a tree without findings is verified, with what is assumed") {
   CHECK_FALSE(std::filesystem::exists(directory.path("out")));
 }
 
+TEST_CASE("where each end is a fault, the results say so") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="M">
+<Sequence><Script code="x := 0"/><Repeat times="{x}"><AlwaysSuccess/></Repeat></Sequence></BehaviorTree></root>)");
+  const Outcome it = run_lockstep({"verify", tree, "--out", directory.path("out")});
+  CHECK(it.code == 1);
+  CHECK(contains(it.out, "none: each end is a fault"));
+}
+
 TEST_CASE("a leaf that returns Skipped is named as what is not assumed") {
   const TemporaryDirectory directory;
   std::filesystem::permissions(directory.file("skip.py", R"(#!/usr/bin/env python3

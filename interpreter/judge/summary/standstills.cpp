@@ -33,10 +33,10 @@ void Standstills::failed(const Standstill& standstill, NodeIndex node) {
   auto lines = standstill_lines(shape_, standstill);
   StandstillSummary* known = find(standstill);
   if (known != nullptr) {
-    lines = {fmt::format("{} is halted and fails: no progress since {:.3f} s", path,
+    lines = {fmt::format("{}{}no progress since {:.3f} s", path, kIsFailed,
                          to_seconds(standstill.since))};
   } else {
-    lines[0] = fmt::format("{} is halted and fails: {}", path, lines[0]);
+    lines[0] = fmt::format("{}{}{}", path, kIsFailed, lines[0]);
     known = add(standstill);
   }
   if (known != nullptr) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "judge/measure/stall.h"
@@ -12,6 +13,9 @@
 #include "trace/observer.h"
 
 namespace lockstep::host {
+
+// What the line of a node that --stall-fail ends says behind its path. Recordings have it.
+inline constexpr std::string_view kIsFailed = " is halted and fails: ";
 
 class Standstills final : public Observer {
  public:
