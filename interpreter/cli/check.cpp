@@ -129,8 +129,8 @@ class Neighbors {
 
   TreeIds trees_;
   std::map<std::string, std::set<std::string>> included_by_;
-  std::map<std::string, std::string> given_;  // their paths
-  std::set<std::string> missions_;            // which name a main tree
+  std::map<std::string, std::string> given_;            // their paths
+  std::set<std::string> missions_;                      // which name a main tree
   std::map<std::string, TreeIds> trees_in_;             // each file
   std::map<std::string, std::set<std::string>> users_;  // the files that use a tree
 };

@@ -18,14 +18,13 @@ void RunWatchers::go_on(std::uint64_t first_tick, Nanoseconds gap, std::string t
   resumed_ = std::move(text);
 }
 
-std::optional<Problem> RunWatchers::record(
-    std::string file, std::function<void(const std::string& error)> on_error) {
+std::optional<Problem> RunWatchers::record(std::string file,
+                                           std::function<void(const std::string& error)> on_error) {
   if (recorder_) return Problem{"the run is recorded already", "one recording for each run"};
   if (!resumed_.empty()) file = name_of_resumed(file);
   const Lock lock(mutex_);
-  recorder_.emplace(
-      shape_of(tree_),
-      RecorderOptions{.path = file, .run = run_, .on_error = std::move(on_error)});
+  recorder_.emplace(shape_of(tree_),
+                    RecorderOptions{.path = file, .run = run_, .on_error = std::move(on_error)});
   if (recorder_->error().empty()) {
     observers_.push_back(&*recorder_);
     if (!resumed_.empty()) recorder_->log("lockstep", "info", resumed_);

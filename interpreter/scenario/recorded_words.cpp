@@ -138,7 +138,17 @@ class WordMaker {
     return is_initial || is_ticked();
   }
 
-  enum class Lacks { Moments, Faults, Value, OtherValues, TooLong, Decision, Result, LastHalt, Intervention };
+  enum class Lacks {
+    Moments,
+    Faults,
+    Value,
+    OtherValues,
+    TooLong,
+    Decision,
+    Result,
+    LastHalt,
+    Intervention
+  };
 
   // Each once.
   template <class... Args>

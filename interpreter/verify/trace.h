@@ -78,8 +78,8 @@ class Tracer {
   // After each tick; its state is not folded yet.
   using After = std::function<void(Stepper&, Status status, std::size_t tick)>;
   void play(const TracedRun& run, const After& after);
-  // All ticks from a state of the search, as long as `gives_up`, which is asked within a tick too, is
-  // false, and `call` true. False: some are missing.
+  // All ticks from a state of the search, as long as `gives_up`, which is asked within a tick too,
+  // is false, and `call` true. False: some are missing.
   bool for_each_tick(StateId from, const std::function<bool()>& gives_up,
                      const std::function<bool(const Stepper&)>& call);
   // One of the ticks of a run; then `ticker` is as it was behind it.

@@ -133,7 +133,7 @@ class VerdictMaker {
             fmt::format("{} (from {})", to_string(status), counted(first->ticks, "tick")));
       }
     }
-    const char* const none = !found_.is_complete()    ? "none so far"
+    const char* const none = !found_.is_complete()   ? "none so far"
                              : found_.faults.empty() ? "none: no behavior ends"
                                                      : "none: each end is a fault";
     say("results", results.empty() ? none : joined(results, ", "));

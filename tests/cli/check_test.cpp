@@ -265,12 +265,12 @@ TEST_CASE("check takes the files of a project, each as it is") {
 
 TEST_CASE("check takes a part with a file that includes it, which has what it uses") {
   const TemporaryDirectory directory;
-  const std::string part =
-      directory.file("part.xml",
-                     "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Sequence memory=\"true\">"
-                     "<Check code=\"far > 2\"/><Advance step=\"${step}\"/><SyncProgress barrier=\"meet\"><SubTree "
-                     "ID=\"Other\"/></SyncProgress>"
-                     "</Sequence></BehaviorTree></root>");
+  const std::string part = directory.file(
+      "part.xml",
+      "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Sequence memory=\"true\">"
+      "<Check code=\"far > 2\"/><Advance step=\"${step}\"/><SyncProgress barrier=\"meet\"><SubTree "
+      "ID=\"Other\"/></SyncProgress>"
+      "</Sequence></BehaviorTree></root>");
   const std::string main = directory.file(
       "main.xml",
       "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><include path=\"part.xml\"/>"
@@ -286,8 +286,9 @@ TEST_CASE("check takes a part with a file that includes it, which has what it us
   CHECK(both.out == part + ": checked with " + main + ", which includes it\n" + main + ": ok\n");
   CHECK(run_lockstep({"check", directory.path("")}).code == 0);
   // One with a mistake, and one that is a mission itself.
-  directory.file("part.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Advance steps=\"1\"/>"
-                             "</BehaviorTree></root>");
+  directory.file("part.xml",
+                 "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Advance steps=\"1\"/>"
+                 "</BehaviorTree></root>");
   const Outcome wrong = run_lockstep({"check", part, main});
   CHECK(wrong.code == 3);
   CHECK(contains(wrong.err, "part.xml:1:"));

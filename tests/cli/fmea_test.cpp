@@ -230,7 +230,8 @@ TEST_CASE("the time of a table of failures is for all of its rows, and what is s
 
 TEST_CASE("the time of a table of failures ends in the middle of a tick of many rounds") {
   const TemporaryDirectory directory;
-  const std::string tree = directory.file("tree.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>
+  const std::string tree =
+      directory.file("tree.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>
 <Script code="n := 0"/><RetryUntilSuccessful num_attempts="-1"><Sequence><A/><B/><Script code="n += 1"/>
 <AlwaysFailure/></Sequence></RetryUntilSuccessful></Sequence></BehaviorTree></root>)");
   const Outcome outcome = run_lockstep({"verify", tree, "--mock", "--fmea", "--format", "json",

@@ -57,8 +57,7 @@ TEST_CASE("a leaf in Python sets ports that another reads, and its exception has
 TEST_CASE("a program in Python may have the name of a module that Python has") {
   const TemporaryDirectory directory;
   for (const std::string name : {"json", "random", "threading", "select"}) {
-    const std::string program =
-        directory.file(name + ".py", block_under("In Python", "python"));
+    const std::string program = directory.file(name + ".py", block_under("In Python", "python"));
     chmod(program.c_str(), 0755);
     const Outcome it = run_lockstep({"plugin", "check", "--list", program});
     INFO(it.err);

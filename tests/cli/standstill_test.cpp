@@ -274,7 +274,8 @@ TEST_CASE("standstill: the recording has the node's Failure, and a line about it
   CHECK(contains(info.out, "    arm   did not wait\n"));
   const Outcome scenario = run_lockstep({"log", "scenario", file, project.file});
   CHECK(scenario.code == 0);
-  CHECK(contains(scenario.err, "'--stall-fail' ended 'Main/Retry/pull' in tick 106: the scenario waits on"));
+  CHECK(contains(scenario.err,
+                 "'--stall-fail' ended 'Main/Retry/pull' in tick 106: the scenario waits on"));
 }
 
 TEST_CASE("standstill: a run that comes to none is the same with --stall-fail, byte for byte") {

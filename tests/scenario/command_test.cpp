@@ -482,23 +482,26 @@ TEST_CASE("a tree for BehaviorTree.CPP has its scenarios beside it") {
   CHECK(contains(run_lockstep({"test", inside}).err, "has no scenarios"));
 }
 
-TEST_CASE("in a tree for BehaviorTree.CPP, a value of a scenario has the type that --set gives it") {
+TEST_CASE(
+    "in a tree for BehaviorTree.CPP, a value of a scenario has the type that --set gives it") {
   const TemporaryDirectory directory;
-  const std::string tree = directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence>
+  const std::string tree =
+      directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence>
     <ScriptCondition code="ready"/><Script code="ready = false"/></Sequence></BehaviorTree></root>)");
   CHECK(run_lockstep({"run", tree, "--set", "ready=true", "--clock", "virtual"}).code == 5);
   for (const std::string verify : {"", " verify=\"yes\""}) {
     const std::string file = directory.file(
-        "t.test.xml", scenarios("<scenario name=\"a\"" + verify +
-                                "><set key=\"ready\" value=\"true\"/>" +
-                                (verify.empty() ? "<expect result=\"fault\"/>" : "") + "</scenario>"));
+        "t.test.xml",
+        scenarios("<scenario name=\"a\"" + verify + "><set key=\"ready\" value=\"true\"/>" +
+                  (verify.empty() ? "<expect result=\"fault\"/>" : "") + "</scenario>"));
     const Outcome it = run_lockstep({"test", file});
     INFO(it.out << it.err);
     CHECK(it.code == (verify.empty() ? 0 : 1));
   }
 }
 
-TEST_CASE("a tree that a project file finds is that of scenarios, one that is nowhere is a warning") {
+TEST_CASE(
+    "a tree that a project file finds is that of scenarios, one that is nowhere is a warning") {
   const TemporaryDirectory directory;
   const std::string root = "<root lockstep=\"1\" main_tree_to_execute=\"M\"><BehaviorTree ID=";
   directory.file("t.xml", root + "\"M\"><SubTree ID=\"Part\"/></BehaviorTree></root>");
@@ -510,8 +513,9 @@ TEST_CASE("a tree that a project file finds is that of scenarios, one that is no
   directory.file("lockstep.project.xml",
                  "<project lockstep=\"1\"><trees folder=\"parts\"/></project>");
   std::filesystem::create_directory(directory.path("parts"));
-  directory.file("parts/part.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><AlwaysFailure/>"
-                                   "</BehaviorTree></root>");
+  directory.file("parts/part.xml",
+                 "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><AlwaysFailure/>"
+                 "</BehaviorTree></root>");
   const Outcome found = run_lockstep({"test", file});
   INFO(found.out << found.err);
   CHECK(found.code == 0);

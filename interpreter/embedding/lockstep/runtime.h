@@ -411,7 +411,8 @@ LOCKSTEP_EXPORT const char* lockstep_run_not_kept(lockstep_run* run);
  *
  * Records the run to a file, for `lockstep replay` and `lockstep log` (--record). What a tick has
  * changed is written soon after it. A resumed run writes "run.resumed-1.jsonl" for "run.jsonl". If
- * it cannot be written any more, as on a full disk, the log gets a warning, and the run continues. */
+ * it cannot be written any more, as on a full disk, the log gets a warning, and the run continues.
+ */
 LOCKSTEP_EXPORT bool lockstep_run_record(lockstep_run* run, const char* file);
 /* Writes what recordings of this process have not written yet. Async-signal-safe: for a program
  * that handles its own crash. */
