@@ -234,6 +234,7 @@ on_failure="seen := 4"/><Script code="n := seen"/></Sequence>)",
       {"--on-fault", "fail", "--leaves", directory.file("t.leaves.xml", R"(<leaves lockstep="1">
 <leaf path="*/a" result="fault"/></leaves>)")});
   CHECK(contains(faulty.err, "as with '--on-fault fail'"));
+  CHECK(contains(faulty.out, R"(a" does="X"/>)"));
   // The result before the fault of a script for both, and a fault after the last tick.
   const Outcome ended = made(R"(<Advance name="a" step="0.5" on_end="n := 1 / 0"/>)", {});
   CHECK(contains(ended.err, "'T/a' has succeeded or failed in tick 1, before the fault"));
