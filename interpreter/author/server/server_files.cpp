@@ -38,7 +38,7 @@ void Server::use(const ClientParams& client) {
 void Server::open(Message& message) {
   FileParams params = read_file_params(connection_.reader(), message);
   workspace_.open(params.uri, std::move(params.text), params.version);
-  workspace_.mark_all_dirty();  // they may include it
+  workspace_.mark_dirty(*workspace_.find(params.uri));
 }
 
 void Server::change(Message& message) {
@@ -53,11 +53,12 @@ void Server::change(Message& message) {
 void Server::close(Message& message) {
   const FileParams params = read_file_params(connection_.reader(), message);
   analyses_.forget(params.uri);
+  // What includes it reads the saved text again.
+  if (const OpenFile* file = workspace_.find(params.uri)) workspace_.mark_dirty(*file);
   workspace_.close(params.uri);
   found_.erase(params.uri);
   publish(params.uri, Tell::Always);
-  workspace_.mark_all_dirty();  // what includes it reads the saved text again
-  ask_again();                  // for those that wait for what is found in it, nothing will be
+  ask_again();  // for those that wait for what is found in it, nothing will be
 }
 
 void Server::look_again(Message&) {

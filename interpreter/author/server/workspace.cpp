@@ -1,10 +1,22 @@
 #include "author/server/workspace.h"
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 #include "author/server/uri.h"
 
 namespace lockstep::host {
+namespace {
+
+// Whether a text that was not read, as one without a tree that is sought, may change the message.
+bool is_about_others(const Diagnostic& it) {
+  constexpr std::string_view kCodes[] = {"unknown-tree"_code.text(), "duplicate-tree"_code.text(),
+                                         "bad-include"_code.text(), "unreadable-file"_code.text()};
+  return std::ranges::find(kCodes, it.code.text()) != std::end(kCodes);
+}
+
+}  // namespace
 
 const Positions& OpenText::positions() const {
   if (!positions_) positions_.emplace(bytes_);
@@ -49,17 +61,24 @@ OpenFile* Workspace::find(const std::string& uri) {
 
 void Workspace::mark_dirty(const OpenFile& changed) {
   const std::string& identity = changed.identity;
+  std::string_view last;  // in one file after the other
+  bool is_in_changed = false;
+  const auto is_in = [&](const std::string& path) {
+    if (path != last) is_in_changed = file_identity(path) == identity;
+    last = path;
+    return is_in_changed;
+  };
   for (auto& [uri, file] : files_) {
-    if (file.identity == identity) file.is_dirty = true;
-    if (file.analysis == nullptr) continue;
-    // Where something is wrong, not all that it needs may have been found.
-    const bool has_errors =
-        std::ranges::any_of(file.analysis->diagnostics,
-                            [](const Diagnostic& it) { return it.severity == Severity::Error; });
-    file.is_dirty |=
-        has_errors || std::ranges::any_of(file.analysis->texts, [&](const auto& source) {
-          return file_identity(source->path()) == identity;
-        });
+    // What a job that has not ended reads is not known yet.
+    const bool is_checked = file.analysis != nullptr && file.analysis->serial == file.serial;
+    if (file.identity == identity || !is_checked) file.is_dirty = true;
+    if (file.is_dirty) continue;
+    file.is_dirty = std::ranges::any_of(file.analysis->diagnostics,
+                                        [&](const Diagnostic& it) {
+                                          return is_about_others(it) || is_in(it.location.file);
+                                        }) ||
+                    std::ranges::any_of(file.analysis->texts,
+                                        [&](const auto& source) { return is_in(source->path()); });
   }
 }
 
