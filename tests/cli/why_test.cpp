@@ -116,6 +116,8 @@ TEST_CASE("a reason belongs to its tick: what a leaf waits for, and nothing befo
   CHECK(contains(why(file, {"see", "--at", "1"}), "see (See): running: frame 2 of 3\n"));
   CHECK(contains(why(file, {"--at", "3"}), "look (Retry): running, 1 attempt failed\n"));
   CHECK(contains(why(file, {"--at", "3"}), "see (See): running: frame 1 of 3\n"));
+  for (const std::string tick : {"-1", "x", "99999999999999999999"})
+    CHECK(run_lockstep({"log", "why", file, "--at", tick}).code == 2);
   CHECK(contains(read_file(file), ",\"reasons\":[[3,\"frame 2 of 3\"]]"));
 }
 

@@ -121,7 +121,7 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
                "needs privileges");
   app.add_option("--priority", options.realtime.priority, "The priority of --realtime, 1 to 99")
       ->type_name("N")
-      ->check(CLI::Range(1, 99))
+      ->transform(whole_number(1, 99))
       ->needs("--realtime")
       ->capture_default_str();
   add_processors(app, "--cpu", options.realtime.processors,

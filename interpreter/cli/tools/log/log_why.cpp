@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/terminal/fitted.h"
+#include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
@@ -41,7 +42,7 @@ LogSubcommand define_log_why(CLI::App& log) {
       ->type_name("NODE");
   app->add_option("--at", options->at, "As of this tick (default: the last)")
       ->type_name("TICK")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(whole_number());
   app->add_flag("--json", options->json, "Print one line of JSON");
   app->footer("Example:\n  lockstep log why run.jsonl grasp --at 120");
   return {app, [options] {
