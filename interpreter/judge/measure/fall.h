@@ -5,7 +5,9 @@
 // the children is bounded. Where none falls while held and all rise, the node ends.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -25,8 +27,11 @@ class FallWatch {
   explicit FallWatch(std::size_t children, bool begins_at_0 = true)
       : last_(children), was_held_(children), begins_at_0_(begins_at_0) {}
 
-  // What comes first is not the first tick of the run.
-  void join() { runs_ = true; }
+  // What comes next does not follow on the tick before: a change across it is no fall or rise.
+  void join() {
+    runs_ = true;
+    std::ranges::fill(last_, std::numeric_limits<double>::quiet_NaN());
+  }
   void after_tick(const SynchronizedTick& tick);
   // The same in parts, for who goes over the children for more than this: each child, if the node
   // was ticked, then the tick.

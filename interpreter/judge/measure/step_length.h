@@ -30,7 +30,8 @@ class StepLength final : public Accumulator {
   }
   void end_tick(const SynchronizedTick& tick) {
     if (tick.ticked) longest_ = std::fmax(longest_, 0);
-    running_ = tick.status == Status::Running;
+    // Behind a joint, it has the progress of its children with its next tick.
+    running_ = (running_ || tick.ticked) && tick.status == Status::Running;
   }
   double value(const EndView&) const override { return longest_; }
 

@@ -51,5 +51,27 @@ TEST_CASE("a rise while it is held is noted, one while it is ticked is none") {
   CHECK(falls("ParallelRelative[delta=1](a b)", "a=R.1 b=R~0,.5,.5,.6") == "- - -");
 }
 
+// As after lost ticks: the child may have had ticks in between.
+TEST_CASE("a change across a joint is neither a fall nor a rise") {
+  FallWatch watch(2);
+  const auto see = [&](double a, double b) {
+    const double progress[] = {a, b};
+    const bool held[] = {false, true};
+    watch.after_tick(
+        {.ticked = true, .status = Status::Running, .progress = progress, .held = held});
+  };
+  const auto is_clean = [&] {
+    return !watch.while_ticked() && !watch.while_held() && !watch.rise_while_held();
+  };
+  see(0, 0.2);
+  watch.join();
+  see(0.3, 0.5);
+  watch.join();
+  see(0.1, 0.2);
+  CHECK(is_clean());
+  see(0.2, 0.3);
+  CHECK_FALSE(is_clean());
+}
+
 }  // namespace
 }  // namespace lockstep::host

@@ -175,6 +175,17 @@ TEST_CASE("progress distance of some samples only") {
   CHECK(std::isnan(measured(10, 20)));
 }
 
+TEST_CASE("a node that is held at a joint has its first step after its next tick") {
+  StepLength step({.children = 1});
+  step.join(Joint::Lost);
+  const SynchronizedTick held{.status = Status::Running};
+  step.after_tick({.parallels = {&held, 1}});
+  sample(step, {0.8});
+  CHECK(step.value({}) == 0);
+  sample(step, {0.9});
+  CHECK(step.value({}) == Approx(0.1));
+}
+
 TEST_CASE("no step leads from one activation to the next") {
   StepLength step({.children = 1});
   sample(step, {0.0});
