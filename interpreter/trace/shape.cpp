@@ -89,6 +89,12 @@ std::vector<NodeIndex> repeating_nodes(const Shape& shape) {
   return nodes;
 }
 
+std::vector<NodeIndex> path_to_root(const Shape& shape, NodeIndex node) {
+  std::vector<NodeIndex> path{node};
+  while (const auto parent = shape.nodes[path.back()].parent) path.push_back(*parent);
+  return path;
+}
+
 std::vector<std::string> paths_of(const Shape& shape) {
   std::vector<std::string> paths;
   paths.reserve(shape.nodes.size());

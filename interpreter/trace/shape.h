@@ -99,6 +99,8 @@ std::vector<bool> resource_users(const Shape& shape);  // the same by index
 // Those that begin their child again and again.
 std::vector<NodeIndex> repeating_nodes(const Shape& shape);
 std::vector<std::string> paths_of(const Shape& shape);
+// The node, then those around it.
+std::vector<NodeIndex> path_to_root(const Shape& shape, NodeIndex node);
 // Whether it stands for another robot of a team.
 bool is_robot(const Shape& shape, NodeIndex node);
 // The leaf that asks robots for what a member of a pool needs; nothing: they do not share the pool.

@@ -55,6 +55,22 @@ TEST_CASE("a pulse of pauses becomes one slower motion, and takes as long") {
   CHECK(carry_value(held, "ticks") == carry_value(paced, "ticks"));
 }
 
+TEST_CASE("nodes below a child that is slowed have its factor") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="M"><ParallelRelative delta="0.1" pace="true"><Sequence memory="true" name="s">
+<Inverter><Inverter><Advance name="x" step="0.02"/></Inverter></Inverter></Sequence>
+<Advance name="slow" step="0.008"/></ParallelRelative></BehaviorTree></root>)");
+  const std::string file = directory.path("r.jsonl");
+  REQUIRE(record_run(tree, file).code == 0);
+  const double factor = carry_value(file, "factor:s");
+  CHECK(factor < 0.9);
+  CHECK(carry_value(file, "factor:x") == factor);
+  CHECK(carry_value(file, "speed-changes:x") == carry_value(file, "speed-changes:s"));
+  const std::string csv = run_lockstep({"log", "csv", file}).out;
+  CHECK_FALSE(contains(csv, "/x,running,0.5,1,0,,1\n"));
+}
+
 TEST_CASE("only recordings of trees that pace have factors") {
   const TemporaryDirectory directory;
   const std::string held = record_carry(directory, "false"),

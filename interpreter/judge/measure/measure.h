@@ -48,12 +48,13 @@ enum class MeasureOf : std::uint8_t {
 
 // Where an accumulator finds its input.
 struct MeasureTarget {
-  std::size_t place = 0;              // in TickView::parallels (Parallel, Child, Pair)
-  std::size_t children = 0;           // of the parallel
-  std::size_t child = 0;              // which of them
-  std::size_t other = 0;              // which of them the argument names second
-  std::vector<NodeIndex> nodes = {};  // the node (Node, User), or the members (Pool)
-  std::size_t entry = 0;              // of the Shape (Entry)
+  std::size_t place = 0;     // in TickView::parallels (Parallel, Child, Pair)
+  std::size_t children = 0;  // of the parallel
+  std::size_t child = 0;     // which of them
+  std::size_t other = 0;     // which of them the argument names second
+  // The node and those around it up to the root (Node), the node (User), or the members (Pool).
+  std::vector<NodeIndex> nodes = {};
+  std::size_t entry = 0;  // of the Shape (Entry)
 };
 
 struct Measure;

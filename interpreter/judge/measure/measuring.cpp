@@ -236,7 +236,7 @@ void Measuring::add_node(const MeasureSpec& spec, const Shape& tree) {
   const auto node = found(find_path(paths_of(tree), spec.name));
   if (!node) return;
   const auto index = static_cast<NodeIndex>(*node);
-  add(spec, tree.nodes[index].path, {.nodes = {index}});
+  add(spec, tree.nodes[index].path, {.nodes = path_to_root(tree, index)});
   asked_.progress.push_back(index);
 }
 

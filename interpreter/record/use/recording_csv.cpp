@@ -16,6 +16,14 @@ bool is_active(const RecordedState& node) {
   return node.status != Status::Idle || node.ticked;
 }
 
+// As of the measure `factor`.
+double least_factor(const RecordedTick& tick, const Shape& shape, std::size_t node) {
+  double least = tick.nodes[node].factor;
+  for (auto up = shape.nodes[node].parent; up; up = shape.nodes[*up].parent)
+    least = std::min(least, tick.nodes[*up].factor);
+  return least;
+}
+
 }  // namespace
 
 bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names, TickRange range) {
@@ -38,7 +46,7 @@ bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names, Ti
       rows += fmt::format("{},{},{},{},{},{},{:d},{:d},{}", tick->tick, tick->time, index,
                           paths[index], to_string(node.status), node.progress, node.ticked,
                           node.held, results.empty() ? std::string() : csv_field(results[index]));
-      rows += paces ? fmt::format(",{}\n", node.factor) : "\n";
+      rows += paces ? fmt::format(",{}\n", least_factor(*tick, reader.header(), index)) : "\n";
     }
     if (rows.size() < kFull) continue;
     if (!write(rows)) return false;
