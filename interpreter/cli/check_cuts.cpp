@@ -52,7 +52,9 @@ std::string cuts_text(const Definition& definition) {
     if (!is_below) end = tree.nodes[leaf.node].end;
     if (!leaf.type->can_run && leaf.children == 0) continue;
     rows.push_back({"  " + printable(tree.path(leaf.node)), printable(std::string(leaf.type->id)),
-                    is_below ? "starts again with the node above it" : text_of(leaf)});
+                    stands_for_robots(*leaf.type) ? "waits for what the other robots send"
+                    : is_below                    ? "starts again with the node above it"
+                                                  : text_of(leaf)});
   }
   if (rows.empty()) return "  all of it continues after a cut\n";
   return "  after a cut, built-in nodes continue, and of others:\n" + text_table(rows, 3);

@@ -7,6 +7,7 @@
 
 #include "base/core/diagnostics.h"
 #include "base/core/wording.h"
+#include "tree/expand/robots.h"
 
 namespace lockstep::host {
 namespace {
@@ -36,6 +37,8 @@ std::string what_leaves_do(std::span<const CutLeaf> cut, const Tree& tree) {
   for (const CutLeaf& leaf : cut) {
     const NodeIndex node = tree.leaves[leaf.place].node;
     const std::string path = tree.path(node);
+    const std::string_view type = tree.leaves[leaf.place].type->id;
+    if (type == kTeamMember || type == kTeamResources) continue;  // other robots do it
     if (leaf.does == AfterCut::Continues) {
       text += fmt::format("; '{}' {} at {:.2g}", path, what_it_does(leaf, true), leaf.progress);
     } else {

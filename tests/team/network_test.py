@@ -125,7 +125,8 @@ def test_a_robot_that_continues_has_the_progress_that_it_heard_last(folder):
     right.wait_for("lift: waits for left at barrier 0.5")  # so left is behind 0.25
     right.kill()
     again = Robot("right", folder, "--arg", "step=0.05", *kept)
-    again.wait_for("resumed after.*left' starts again")  # what another robot does is never assumed
+    resumed = again.wait_for("resumed after.*\n").group()
+    assert "left'" not in resumed, resumed  # what another robot does is never assumed
     left.succeeds()
     again.succeeds()
     with open(again.record, encoding="utf-8") as file:
