@@ -193,6 +193,16 @@ TEST_CASE("a project for BehaviorTree.CPP builds and passes its tests, and nodes
 }
 #endif
 
+TEST_CASE("the commands that follow a new tree name the folder of its plugin") {
+  const TemporaryDirectory directory;
+  succeed(
+      "lockstep new plugin grip --lang python\ncd grip\nlockstep new tree more --plugin grip.py "
+      "2>&1 | grep -q "
+      "'run more.xml --plugin-path \\.$'\nlockstep run more.xml --plugin-path . --clock virtual\n"
+      "cd ..\nlockstep new tree other --plugin far.py 2>&1 | grep -q 'plugin-path build'",
+      directory);
+}
+
 TEST_CASE("a second plugin in a project is built with it, and a leaf goes where --in says") {
   const TemporaryDirectory directory;
   succeed(

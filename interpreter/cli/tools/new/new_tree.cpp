@@ -28,6 +28,12 @@ Result<std::string> plugin_named(const std::string& text) {
   return plugin.extension() == ".so" ? plugin.stem().string() : text;
 }
 
+// Where the file of the plugin is, or will be.
+std::string folder_of_plugin(const std::string& plugin) {
+  const std::string file = fs::path(plugin).has_extension() ? plugin : plugin + ".so";
+  return fs::exists(file) && !fs::exists(fs::path("build") / file) ? "." : "build";
+}
+
 int new_tree(const TreeOptions& options) {
   std::string name = options.name;
   if (name.ends_with(".xml")) name.resize(name.size() - 4);
@@ -36,7 +42,7 @@ int new_tree(const TreeOptions& options) {
   if (!plugin) return refuse(plugin.error());
   const fs::path folder = fs::is_directory("trees") ? "trees" : "";
   const NewTree tree{name, options.language == "btcpp4", *plugin, folder};
-  const std::string path = plugin->empty() ? "" : " --plugin-path build";
+  const std::string path = plugin->empty() ? "" : " --plugin-path " + folder_of_plugin(*plugin);
   const auto line = [&](const char* command, const char* end) {
     return fmt::format("{} {} {}{}", program_word(), command, (folder / (tree.name + end)).string(),
                        path);
