@@ -26,8 +26,8 @@ class RunWatchers {
 
   // The run goes on after a cut, which is logged. Before who logs is there.
   void go_on(std::uint64_t first_tick, Nanoseconds gap, std::string text);
-  // These two before the first tick. What is wrong, or nothing; `on_error` is told, once, when the
-  // recording cannot be written any more.
+  // Both are called before the first tick, and return what is wrong, or nothing. `on_error` is
+  // called once, when the recording cannot be written any more.
   std::optional<Problem> record(std::string file,
                                 std::function<void(const std::string& error)> on_error);
   // The link.

@@ -1,5 +1,6 @@
 // A tree that paces, as its users see it: recordings, measures, events and tables.
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "support/json.h"
 #include "support/program.h"
@@ -67,8 +68,10 @@ TEST_CASE("nodes below a child that is slowed have its factor") {
   CHECK(factor < 0.9);
   CHECK(carry_value(file, "factor:x") == factor);
   CHECK(carry_value(file, "speed-changes:x") == carry_value(file, "speed-changes:s"));
-  const std::string csv = run_lockstep({"log", "csv", file}).out;
-  CHECK_FALSE(contains(csv, "/x,running,0.5,1,0,,1\n"));
+  std::set<std::string> ends;  // of its rows
+  for (const std::string& row : lines(run_lockstep({"log", "csv", file}).out))
+    if (contains(row, "/x,running")) ends.insert(row.substr(row.rfind(',') + 1));
+  CHECK(ends.size() > 1);
 }
 
 TEST_CASE("only recordings of trees that pace have factors") {

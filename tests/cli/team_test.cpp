@@ -46,6 +46,12 @@ TEST_CASE("lockstep team: the robots of a team are in step, also over a bad netw
   CHECK(contains(never.out, "left   stopped, 300 ticks, 3.000 s: 'right': not heard yet\n"));
 }
 
+TEST_CASE("after a cut, what other robots do is not listed as that of a leaf") {
+  const Outcome it = run_lockstep({"check", kCarry, "--arg", "me=left", "--checkpoint"});
+  CHECK(it.code == 0);
+  CHECK(contains(it.out, "TeamMember  waits for what the other robots send\n"));
+}
+
 TEST_CASE("lockstep team: a robot that starts later is waited for, and recorded with the reason") {
   const TemporaryDirectory directory;
   const Outcome late = team({"--start", "0", "2", "--record", directory.path("")});

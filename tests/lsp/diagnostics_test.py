@@ -159,6 +159,23 @@ class Diagnostics(unittest.TestCase):
         # A tree of this language includes what it needs.
         self.assertEqual(self.worst(self.said_of({"main.xml": main % ours})["main.xml"]), SEVERITIES["error"])
 
+    def test_a_file_is_checked_again_when_another_one_has_what_it_lacks(self):
+        root = '<root lockstep="1" main_tree_to_execute="Main">%s<BehaviorTree ID="Main">%s</BehaviorTree></root>'
+        part = '<root lockstep="1"><BehaviorTree ID="%s"><Wait seconds="1"/></BehaviorTree></root>'
+        uses = root % ('<include path="part.xml"/>', '<SubTree ID="Part"/>')
+        with tempfile.TemporaryDirectory() as folder:
+            main, other = Path(folder, "main.xml"), Path(folder, "part.xml")
+            self.assertIn("part.xml", str(self.client.open(main, uses)))  # it is not there
+            self.client.open(other, part % "Part")
+            self.assertEqual(self.client.diagnostics(main), [])
+            self.client.send_change(other, part % "Other")
+            self.assertIn("unknown tree 'Part'", str(self.client.diagnostics(main)))
+            self.client.send_change(other, part % "Part")
+            self.assertEqual(self.client.diagnostics(main), [])
+            self.client.close(other)
+            self.assertIn("part.xml", str(self.client.diagnostics(main)))
+            self.client.close(main)
+
     def test_hints_for_editors_without_related_information(self):
         client = Client()
         client.start(SOURCE, related=False)

@@ -24,8 +24,8 @@ docs/programs.md has the rest. `python3 -m lockstep_leaf sweep.py` tries the lea
 import os
 import sys
 
-# A program may have the name of a module of Python, such as select.py: these and what they import must not take it for that.
-_beside = os.path.dirname(os.path.realpath(sys.argv[0]))
+# A program may have the name of a module of Python, such as select.py: what is imported here must not take it for that module.
+_beside = os.path.dirname(os.path.realpath((getattr(sys, "argv", None) or [""])[0]))  # a program in C may have set no argv
 _path, sys.path = sys.path, [it for it in sys.path if os.path.realpath(it or ".") != _beside]
 import atexit
 import json
