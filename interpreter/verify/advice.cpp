@@ -50,10 +50,11 @@ bool depends_on_rate(const Tree& tree, const SearchResult& found) {
   return false;
 }
 
-// Whoever starts the tree may give it other start values.
+// Whoever starts the tree may give the entries of the main tree other start values.
 bool has_start_values(const Tree& tree, const LeafModels& models) {
   const auto written = writers(tree);  // by the tree itself, or by its leaves
   for (std::size_t slot = 0; slot < tree.slots.size(); ++slot) {
+    if (tree.slots[slot].name.find('/') != std::string_view::npos) continue;
     const bool has_value = !std::holds_alternative<NoValue>(tree.slots[slot].initial);
     if (models.entries[slot] && (has_value || written[slot].empty())) return true;
   }

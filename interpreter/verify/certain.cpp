@@ -26,6 +26,7 @@ class Certainties {
         why_it_stands_(std::move(why_it_stands)) {}
 
   std::vector<Advice> find() {
+    look_for_faults();
     look_for_dead_nodes();
     if (std::ranges::none_of(found_.results, [](const auto& it) { return it.has_value(); }) &&
         found_.faults.empty()) {
@@ -35,7 +36,31 @@ class Certainties {
   }
 
  private:
-  // A node of a SubTree that is used twice is dead only if it is in both.
+  // A node of a SubTree that is used twice is told only if it is so in both: by their places.
+  void look_for_faults() {
+    std::set<std::uint32_t> completing, told;
+    for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
+      if (has_been_more_than_a_fault(node)) completing.insert(places_[node].byte);
+    }
+    for (const auto& [node, fault] : found_.faults) {
+      const std::uint32_t place = places_[node].byte;
+      if (completing.contains(place)) continue;
+      faulty_.insert(node);
+      if (uses_what_is_not_there(node) || !told.insert(place).second) continue;
+      certainties_.push_back(
+          {"always-fault"_code, node, severity(),
+           fmt::format("each tick of '{}' is a fault, {}: {}", tree_.labels[node].name,
+                       premise("whatever the leaves do"), fault.first),
+           why_unset(node)});
+    }
+  }
+
+  bool has_been_more_than_a_fault(NodeIndex node) const {
+    return std::ranges::any_of(kStatuses, [&](const StatusRow& it) {
+      return it.status != Status::Idle && found_.coverage.has_been(node, it.status);
+    });
+  }
+
   void look_for_dead_nodes() {
     std::set<std::uint32_t> alive, told;
     for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
@@ -43,7 +68,7 @@ class Certainties {
     }
     for (NodeIndex node = 0; node < tree_.nodes[0].end;) {
       const bool is_dead = !alive.contains(places_[node].byte);
-      if (is_dead && told.insert(places_[node].byte).second) {
+      if (is_dead && !is_kept_by_fault(node) && told.insert(places_[node].byte).second) {
         certainties_.push_back({"dead-node"_code, node, severity(),
                                 fmt::format("'{}' can never run, {}", tree_.labels[node].name,
                                             premise("whatever the leaves do")),
@@ -53,19 +78,21 @@ class Certainties {
     }
   }
 
-  // The child before it decides, or keeps all behind it from their ticks, as one does that reads
-  // what is not there yet.
+  // By one that each tick of a node around it or before it is, which is told of that node. For
+  // example, the child of a Sequence whose _while reads what is not there yet.
+  bool is_kept_by_fault(NodeIndex node) const {
+    const NodeIndex parent = tree_.labels[node].parent;
+    return std::ranges::any_of(faulty_, [&](NodeIndex at) {
+      return at == parent || (at < node && tree_.labels[at].parent == parent);
+    });
+  }
+
+  // The child before it decides.
   std::string why_dead(NodeIndex node) const {
     const NodeIndex parent = tree_.labels[node].parent;
     const Status goes_on = tree_.labels[parent].type->goes_on_after;
     NodeIndex before = 0;
-    for (NodeIndex at = parent + 1; at < node; at = tree_.nodes[at].end) {
-      before = at;
-      if (goes_on != Status::Idle || !found_.faults.contains(at)) continue;
-      const std::string why =
-          why_unset(at);  // no child of a parallel decides, but a fault ends all
-      if (!why.empty()) return fmt::format("'{}' before it faults: {}", tree_.labels[at].name, why);
-    }
+    for (NodeIndex at = parent + 1; at < node; at = tree_.nodes[at].end) before = at;
     if (before == 0 || goes_on == Status::Idle || found_.coverage.has_been(before, goes_on)) {
       return "";
     }
@@ -75,34 +102,61 @@ class Certainties {
                        why);
   }
 
-  // "its while reads 'k', which has no value yet: 'later' writes it, which comes after it"
+  // "its while reads 'k', which has no value yet: 'later' writes it, which comes after"
   std::string why_unset(NodeIndex node) const {
-    std::string why = why_unset(own_script(node), node, "it");
-    for (const HookedNode& it : tree_.hooked) {
-      if (it.node != node) continue;
-      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
-        if (!why.empty()) return why;
-        why = why_unset(it.script(hook), node,
-                        fmt::format("its {}", attribute_of(hook, *tree_.rules)));
+    std::string why;
+    for_each_script(node, [&](const Script& script, std::string_view what) {
+      for (std::size_t i = 0; i < script.slots.size(); ++i) {
+        const Slot& slot = tree_.slots[script.slots[i]];
+        const std::vector<NodeIndex>& who = writers_[script.slots[i]];
+        const bool is_read = script.code->uses()[i].is_read;
+        const bool is_unset = std::holds_alternative<NoValue>(slot.initial) && !who.empty() &&
+                              std::ranges::min(who) > node;
+        if (!why.empty() || !is_read || !is_unset) continue;
+        why =
+            fmt::format("{} reads '{}', which has no value yet: '{}' writes it, which comes after",
+                        what, brief(slot.name), tree_.labels[std::ranges::min(who)].name);
       }
-    }
+    });
     return why;
   }
 
-  std::string why_unset(std::uint32_t number, NodeIndex node, std::string_view what) const {
-    if (number >= tree_.scripts.size() || tree_.scripts[number].code == nullptr) return "";
-    const Script& script = tree_.scripts[number];
-    for (std::size_t i = 0; i < script.slots.size(); ++i) {
-      const Slot& slot = tree_.slots[script.slots[i]];
-      const std::vector<NodeIndex>& who = writers_[script.slots[i]];
-      const bool is_read = script.code->uses()[i].is_read;
-      const bool is_unset = std::holds_alternative<NoValue>(slot.initial) && !who.empty() &&
-                            std::ranges::min(who) > node;
-      if (!is_read || !is_unset) continue;
-      return fmt::format("{} reads '{}', which has no value yet: '{}' writes it, which comes after",
-                         what, brief(slot.name), tree_.labels[std::ranges::min(who)].name);
+  // An entry that nothing writes or makes: whoever checks names has told of it.
+  bool uses_what_is_not_there(NodeIndex node) const {
+    bool found = false;
+    for_each_script(node, [&](const Script& script, std::string_view) {
+      found |= std::ranges::any_of(script.slots, [&](std::uint32_t slot) {
+        const bool is_unset = std::holds_alternative<NoValue>(tree_.slots[slot].initial);
+        return is_unset && (writers_[slot].empty() || !is_made(slot));
+      });
+    });
+    return found;
+  }
+
+  bool is_made(std::uint32_t slot) const {
+    return tree_.slots[slot].is_present ||
+           std::ranges::any_of(tree_.scripts, [&](const Script& it) {
+             const auto place = std::ranges::find(it.slots, slot) - it.slots.begin();
+             return it.code != nullptr && place < std::ssize(it.slots) &&
+                    it.code->uses()[static_cast<std::size_t>(place)].is_made;
+           });
+  }
+
+  // Calls use(script, "its while") for those that decide before its tick.
+  template <class Use>
+  void for_each_script(NodeIndex node, const Use& use) const {
+    const auto look_at = [&](std::uint32_t number, std::string_view what) {
+      if (number < tree_.scripts.size() && tree_.scripts[number].code != nullptr) {
+        use(tree_.scripts[number], what);
+      }
+    };
+    look_at(own_script(node), "it");
+    for (const HookedNode& it : tree_.hooked) {
+      if (it.node != node) continue;
+      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
+        look_at(it.script(hook), fmt::format("its {}", attribute_of(hook, *tree_.rules)));
+      }
     }
-    return "";
   }
 
   std::uint32_t own_script(NodeIndex node) const {
@@ -148,6 +202,7 @@ class Certainties {
   const std::vector<std::vector<NodeIndex>> writers_ = writers(tree_);
   const bool deadlocks_;
   std::string why_it_stands_;
+  std::set<NodeIndex> faulty_;  // each of whose ticks is a fault
   std::vector<Advice> certainties_;
 };
 

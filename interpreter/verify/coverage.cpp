@@ -28,11 +28,15 @@ void SearchCoverage::after_tick(Ticker& ticker) {
   const Activity* const activity = state.activity.data();
   const std::uint32_t* const last_tick = state.last_tick.data();
   std::uint8_t* const seen = seen_.data();
+  const Fault* const fault = ticker.fault();
+  const std::uint8_t before_fault = fault == nullptr ? std::uint8_t{0} : seen[fault->node];
   for (std::size_t node = 0; node < seen_.size(); ++node) {
     const bool is_ticked = last_tick[node] == state.tick_number;
     const std::uint8_t bits = kBits[static_cast<std::uint8_t>(activity[node]) % kWithheld];
     seen[node] = static_cast<std::uint8_t>(seen[node] | (is_ticked ? bits : 0u));
   }
+  // Its status is that of a node in the middle of a tick.
+  if (fault != nullptr) seen[fault->node] = before_fault | kTicked;
   const auto look_at_timeouts = [this](auto state_of) {
     for (const NodeIndex node : timeouts_) {
       const NodeState it = state_of(node);

@@ -692,6 +692,24 @@ TEST_CASE("convert writes a BlackboardCheck of version 3 as a WhileDoElse") {
                  "return_on_mismatch=\"RUNNING\" cannot be expressed"));
 }
 
+TEST_CASE("convert warns of a fault that the other language may not have") {
+  const TemporaryDirectory directory;
+  const auto errors = [&](const std::string& value, const std::string& code) {
+    const std::string tree =
+        "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\"><BehaviorTree ID=\"Main\">"
+        "<SubTree ID=\"Lift\" ready=\"" +
+        value +
+        "\"/></BehaviorTree>"
+        "<BehaviorTree ID=\"Lift\"><Script code=\"" +
+        code + "\"/></BehaviorTree></root>";
+    return run_lockstep({"convert", directory.file("tree.xml", tree)}).err;
+  };
+  CHECK(contains(errors("true", "ready = false"),
+                 "warning: each tick of 'Script' is a fault, whatever the leaves do: its code: "
+                 "cannot assign 0 to 'ready', which has the type string [not-the-same]"));
+  CHECK(errors("1", "ready = false").empty());
+}
+
 TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
   const TemporaryDirectory directory;
   const auto told = [&](const std::string& condition, const std::string& to = "btcpp4") {

@@ -51,22 +51,29 @@ constexpr AdviceRow kAdviceRows[] = {
    "WaitUntil[code=progress(a)<0.5] b))", ""},
   {"a hook reads what only a later node writes",
    "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
-   "'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "
-   "'k', which has no value yet: 'Script' writes it, which comes after\n"},
+   "each tick of 'a' is a fault, whatever the leaves do: its while: '<' takes two numbers or two texts, or a "
+   "number and the text of one, not the entry 'k' without a value and 2: its while reads 'k', which has no value "
+   "yet: 'Script' writes it, which comes after\n"},
   {"a condition reads what only a later node writes",
    "Sequence(Check[code=k<2] Script[code=k:=1])",
-   "'Script' can never run, whatever the leaves do: 'Check' before it never succeeds: it reads 'k', which has no "
-   "value yet: 'Script' writes it, which comes after\n"},
+   "each tick of 'Check' is a fault, whatever the leaves do: its code: '<' takes two numbers or two texts, or a "
+   "number and the text of one, not the entry 'k' without a value and 2: it reads 'k', which has no value yet: "
+   "'Script' writes it, which comes after\n"},
+  {"a fault that each tick has, by types", "Sequence(Script[code=y:=0] Script[code=y:=y/0] a)",
+   "each tick of 'Script' is a fault, whatever the leaves do: its code: cannot assign NaN (such as 0/0) to 'y', "
+   "which has the type int\n"},
+  {"a fault in some ticks only", "Repeat(Sequence(Script[code=y:=0] Fallback(a Script[code=y:=3]) "
+   "Script[code=y:=y/y]))", ""},
   {"in a parallel, whose other children a fault ends too",
    "Parallel(a[while=k<2] Script[code=k:=1])",
-   "'Script' can never run, whatever the leaves do: 'a' before it faults: its while reads 'k', which has no value "
+   "each tick of 'a' is a fault, whatever the leaves do: its while: '<' takes two numbers or two texts, or a "
+   "number and the text of one, not the entry 'k' without a value and 2: its while reads 'k', which has no value "
    "yet: 'Script' writes it, which comes after\n"},
   {"a while of an entry in front of a node that counts time",
    "Parallel(Sequence[while=k<2](Wait[seconds=1] a) Script[code=k:=1])",
-   "'Wait' can never run, whatever the leaves do\n"
-   "'a' can never run, whatever the leaves do: 'Wait' before it never succeeds\n"
-   "'Script' can never run, whatever the leaves do: 'Sequence' before it faults: its while reads 'k', which has "
-   "no value yet: 'Script' writes it, which comes after\n"},
+   "each tick of 'Sequence' is a fault, whatever the leaves do: its while: '<' takes two numbers or two texts, or "
+   "a number and the text of one, not the entry 'k' without a value and 2: its while reads 'k', which has no value "
+   "yet: 'Script' writes it, which comes after\n"},
   {"the rate decides which is first",
    "Parallel(Sequence[memory=true](Wait[seconds=0.3] b[while=k<2]) "
    "Sequence[memory=true](Wait[seconds=0.2] Script[code=k:=1]))", ""},

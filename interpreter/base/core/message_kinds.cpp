@@ -4,6 +4,18 @@ namespace lockstep::host {
 
 std::span<const MessageKind> message_kinds() {
   static constexpr MessageKind kAll[] = {
+      {"always-fault",
+       "Each tick of a node is a fault, whatever the leaves return, or unless one returns Skipped.",
+       "Correct what the message quotes. For example, give the entry one type everywhere.",
+       R"xml(<root BTCPP_format="4" main_tree_to_execute="Main">
+  <BehaviorTree ID="Main">
+    <SubTree ID="Lift" ready="true"/>
+  </BehaviorTree>
+  <BehaviorTree ID="Lift">
+    <Script code="ready = false"/>
+  </BehaviorTree>
+</root>
+)xml"},
       {"assigning-condition",
        "A condition uses `=`, which assigns a value. The value decides, so the condition nearly "
        "always holds.",

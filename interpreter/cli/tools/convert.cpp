@@ -15,6 +15,7 @@
 #include "run/loading/load.h"
 #include "run/loading/plugins.h"
 #include "tree/check/models.h"
+#include "verify/check/advice.h"
 
 namespace lockstep::host {
 namespace {
@@ -42,6 +43,18 @@ struct Checked {
   std::unique_ptr<Project> project;  // the definition refers to it
   std::optional<Definition> definition;
 };
+
+// What is a fault in each run of the tree, and may be none in the other language. For example, a
+// SubTree gives its tree ready="true", which is a text for BehaviorTree.CPP and a bool here.
+void warn_of_faults(Checked&& before, Diagnostics& diagnostics) {
+  Diagnostics advice;
+  add_advice(*before.project, *std::move(before.definition), AdviceEffort::Certain, advice);
+  for (const Diagnostic& it : advice.all()) {
+    if (it.code.text() != "always-fault") continue;
+    diagnostics.warning("not-the-same"_code, it.location, it.message,
+                        "the types of entries are others in the result, so look at it there");
+  }
+}
 
 // The errors of the result.
 void check_result(const std::string& name, const std::string& result, Diagnostics& diagnostics) {
@@ -81,7 +94,7 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   Sources sources;
   sources.add(document->source());
   const Reporter report(sources, diagnostics);
-  const Checked before(name, std::string(document->source()->text()));
+  Checked before(name, std::string(document->source()->text()));
   Diagnostics told_by_check;
   const Models models = before.project
                             ? read_models(*before.project, {before.project->sources, told_by_check})
@@ -91,6 +104,7 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
                     ? convert_since_4(*document, to_nodes, report)
                     : convert(*document, {from, to, from_nodes, to_nodes, models, meaning}, report);
   if (result && !before.found.has_errors()) check_result(name, *result, diagnostics);
+  if (result && before.definition) warn_of_faults(std::move(before), diagnostics);
   return result;
 }
 
