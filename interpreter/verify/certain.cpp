@@ -38,27 +38,22 @@ class Certainties {
  private:
   // A node of a SubTree that is used twice is told only if it is so in both: by their places.
   void look_for_faults() {
-    std::set<std::uint32_t> completing, told;
+    std::set<std::uint32_t> more, told;
     for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
-      if (has_been_more_than_a_fault(node)) completing.insert(places_[node].byte);
+      if (has_ended(node) || found_.coverage.has_been(node, Status::Running))
+        more.insert(places_[node].byte);
     }
     for (const auto& [node, fault] : found_.faults) {
       const std::uint32_t place = places_[node].byte;
-      if (completing.contains(place)) continue;
+      if (more.contains(place)) continue;
       faulty_.insert(node);
-      if (uses_what_is_not_there(node) || !told.insert(place).second) continue;
+      if (!told.insert(place).second) continue;
       certainties_.push_back(
           {"always-fault"_code, node, severity(),
            fmt::format("each tick of '{}' is a fault, {}: {}", tree_.labels[node].name,
                        premise("whatever the leaves do"), fault.first),
            why_unset(node)});
     }
-  }
-
-  bool has_been_more_than_a_fault(NodeIndex node) const {
-    return std::ranges::any_of(kStatuses, [&](const StatusRow& it) {
-      return it.status != Status::Idle && found_.coverage.has_been(node, it.status);
-    });
   }
 
   void look_for_dead_nodes() {
@@ -78,12 +73,23 @@ class Certainties {
     }
   }
 
-  // By one that each tick of a node around it or before it is, which is told of that node. For
+  // By a node around it or before it whose ticks are all faults, which is told of that node. For
   // example, the child of a Sequence whose _while reads what is not there yet.
   bool is_kept_by_fault(NodeIndex node) const {
     const NodeIndex parent = tree_.labels[node].parent;
-    return std::ranges::any_of(faulty_, [&](NodeIndex at) {
-      return at == parent || (at < node && tree_.labels[at].parent == parent);
+    if (faulty_.contains(parent)) return true;
+    for (NodeIndex at = parent + 1; at < node; at = tree_.nodes[at].end) {
+      const auto fault = faulty_.lower_bound(at);
+      const bool has_one = fault != faulty_.end() && *fault < tree_.nodes[at].end;
+      if (has_one && !has_ended(at)) return true;
+    }
+    return false;
+  }
+
+  bool has_ended(NodeIndex node) const {
+    return std::ranges::any_of(kStatuses, [&](const StatusRow& it) {
+      return it.status != Status::Idle && it.status != Status::Running &&
+             found_.coverage.has_been(node, it.status);
     });
   }
 
@@ -119,27 +125,6 @@ class Certainties {
       }
     });
     return why;
-  }
-
-  // An entry that nothing writes or makes: whoever checks names has told of it.
-  bool uses_what_is_not_there(NodeIndex node) const {
-    bool found = false;
-    for_each_script(node, [&](const Script& script, std::string_view) {
-      found |= std::ranges::any_of(script.slots, [&](std::uint32_t slot) {
-        const bool is_unset = std::holds_alternative<NoValue>(tree_.slots[slot].initial);
-        return is_unset && (writers_[slot].empty() || !is_made(slot));
-      });
-    });
-    return found;
-  }
-
-  bool is_made(std::uint32_t slot) const {
-    return tree_.slots[slot].is_present ||
-           std::ranges::any_of(tree_.scripts, [&](const Script& it) {
-             const auto place = std::ranges::find(it.slots, slot) - it.slots.begin();
-             return it.code != nullptr && place < std::ssize(it.slots) &&
-                    it.code->uses()[static_cast<std::size_t>(place)].is_made;
-           });
   }
 
   // Calls use(script, "its while") for those that decide before its tick.

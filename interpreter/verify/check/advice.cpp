@@ -1,6 +1,8 @@
 #include "verify/check/advice.h"
 
 #include <algorithm>
+#include <optional>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,27 @@
 #include "tree/pace.h"
 
 namespace lockstep::host {
+namespace {
+
+// Whether the check of names and types has warned of something in the tag of a node.
+bool is_doubtful(std::span<const Place> places, Place node, const Sources& sources,
+                 const Diagnostics& diagnostics) {
+  const SourceLocation begin = sources.locate(node);
+  std::optional<SourceLocation> end;
+  const auto is_next = [&](Place it) { return it.byte > node.byte; };
+  auto behind = places | std::views::filter(is_next);
+  const auto next = std::ranges::min_element(behind, {}, &Place::byte);
+  if (next != behind.end()) end = sources.locate(*next);
+  return std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& it) {
+    const auto at = std::pair(it.location.line, it.location.column);
+    const bool is_before_end =
+        !end || end->file != begin.file || at < std::pair(end->line, end->column);
+    return it.severity == Severity::Warning && it.location.file == begin.file &&
+           at > std::pair(begin.line, begin.column) && is_before_end;
+  });
+}
+
+}  // namespace
 
 void add_advice(const Project& project, Definition definition, AdviceEffort effort,
                 Diagnostics& diagnostics, std::function<int()> stop_signal) {
@@ -23,6 +46,8 @@ void add_advice(const Project& project, Definition definition, AdviceEffort effo
   const Tree tree = compile(definition);
   const Reporter reporter(project.sources, diagnostics);
   for (Advice& it : advice_of(tree, places, effort, std::move(stop_signal))) {
+    const bool is_fault = it.code.text() == "always-fault";
+    if (is_fault && is_doubtful(places, places[it.node], project.sources, diagnostics)) continue;
     reporter.at(it.code, places[it.node], std::move(it.message), std::move(it.hint), it.severity);
   }
 }
