@@ -45,15 +45,23 @@ CheckWriter writer_of(const std::string& format) {
   return format == "github" ? as_github : nullptr;
 }
 
+bool has_errors_in(const Diagnostics& diagnostics, const std::string& file) {
+  return std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& it) {
+    const bool is_here = it.location.file == file || it.location.file.empty();
+    return it.severity == Severity::Error && is_here;
+  });
+}
+
 // For people. `written` is the exit code of what went to stdout so far; `cuts` goes there too.
-// `is_told`: it has errors, and perhaps another file reported them.
+// `is_told`: it has errors, and perhaps another file reported them, or all are in files that it
+// uses.
 void print_checked(const std::string& tree, Diagnostics& diagnostics, bool is_told, int code,
                    const std::string& cuts, int& written) {
   print_diagnostics(diagnostics, Severity::Note);
-  const std::string name = printable(tree == "-" ? "stdin" : tree);
+  const std::string file = tree == "-" ? "stdin" : tree, name = printable(file);
   if (code == kExitSuccess) {
     if (written == kExitSuccess) written = write_results(name + ": ok\n" + cuts);
-  } else if (is_told && !diagnostics.has_errors()) {
+  } else if (is_told && !has_errors_in(diagnostics, file)) {
     messages().say(fmt::format("{}: a file that it uses has the errors above\n", name));
   } else if (!diagnostics.has_errors()) {
     const auto warnings = counted(diagnostics.count(Severity::Warning), "warning");

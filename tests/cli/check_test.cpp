@@ -285,6 +285,17 @@ TEST_CASE("check takes a part with a file that includes it, which has what it us
   CHECK(both.code == 0);
   CHECK(both.out == part + ": checked with " + main + ", which includes it\n" + main + ": ok\n");
   CHECK(run_lockstep({"check", directory.path("")}).code == 0);
+  // Only one of two has it all: the message is at the part, and a line names the other.
+  const std::string lacking = directory.file(
+      "lacking.xml",
+      "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><include path=\"part.xml\"/>"
+      "<BehaviorTree ID=\"Main\"><SubTree ID=\"Part\"/></BehaviorTree></root>");
+  const Outcome one = run_lockstep({"check", part, main, lacking});
+  CHECK(one.code == 3);
+  CHECK(contains(one.err, "unknown node 'Advance'"));
+  CHECK(contains(one.err, lacking + ": a file that it uses has the errors above\n"));
+  CHECK(!contains(one.err, main + ": a file"));
+  std::filesystem::remove(lacking);
   // One with a mistake, and one that is a mission itself.
   directory.file("part.xml",
                  "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Advance steps=\"1\"/>"
