@@ -705,6 +705,8 @@ TEST_CASE("convert warns of a fault that the other language may not have") {
     return run_lockstep({"convert", directory.file("tree.xml", tree)}).err;
   };
   CHECK(contains(errors("true", "ready = false"),
+                 "warning: 'ready=true' is not quite the same [not-the-same]"));
+  CHECK(contains(errors("true", "ready = false"),
                  "warning: each tick of 'Script' is a fault, whatever the leaves do: its code: "
                  "cannot assign 0 to 'ready', which has the type string [not-the-same]"));
   CHECK(errors("1", "ready = false").empty());
@@ -982,6 +984,10 @@ TEST_CASE("convert writes a SetBlackboard with the type of its entry") {
   CHECK(contains(converted("1", say, model("bool")).out, "code=\"x := true\""));
   CHECK(contains(converted("5", "<Script code=\"x := 'a'\"/>").out, "code=\"x := '5'\""));
   CHECK(contains(converted("05", "<Script code=\"x := 3\"/>").out, "code=\"x := 5\""));
+  const std::string is_text_there = "warning: 'x := 5' is not quite the same";
+  CHECK(contains(converted("5", "<Script code=\"x := 3\"/>").err, is_text_there));
+  CHECK_FALSE(contains(converted("5", "<ScriptCondition code=\"x == 3\"/>").err, is_text_there));
+  CHECK_FALSE(contains(converted("5", say, model("int")).err, is_text_there));
   const std::string is_told = "note: the type of the entry in 'x := 1' is not known";
   CHECK(contains(converted("1", say).err, is_told));
   CHECK_FALSE(contains(converted("1", say, model("int")).err, is_told));

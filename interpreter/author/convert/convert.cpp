@@ -28,6 +28,7 @@
 #include "language/document/value_text.h"
 #include "language/expression/reading.h"
 #include "tree/check/node_check.h"
+#include "tree/types/literal.h"
 
 namespace lockstep::host {
 namespace {
@@ -454,8 +455,20 @@ class Converter {
                  "in quotes",
                  Severity::Note);
     }
+    if (!converted.is_text) warn_of_text(place_of(element), converted.code, entry);
     open_.back().tag = "Script";
     add_attribute(token, "code", converted.code);
+  }
+
+  // What is a text there may be a number here, with which a script goes on: n := 0,
+  // SetBlackboard n="1", n += 1.
+  void warn_of_text(Place place, std::string_view what, const EntryTypes::Found& entry) const {
+    const bool is_number = entry.type && entry.type != ValueType::String;
+    if (!is_number || entry.has_port || report_.counted_only(Severity::Warning)) return;
+    report_.at("not-the-same"_code, place, fmt::format("'{}' is not quite the same", brief(what)),
+               "for BehaviorTree.CPP the value is a text, so a script that then assigns a number "
+               "to the entry fails",
+               Severity::Warning);
   }
 
   void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
@@ -678,6 +691,11 @@ class Converter {
     const std::string value = value_of(attribute);
     const std::string_view key = btcpp::key_of(value, name);
     if (key.empty() && is_script(name)) return convert_script(token, attribute, name);
+    if (key.empty() && is_subtree && literal_type(value) == ValueType::String &&
+        parse_flag(value)) {
+      warn_of_text(attribute.place, fmt::format("{}={}", name, value),
+                   types_.of_start_value(place_of(open_.back().element), name));
+    }
     if (key.empty()) return keep(token, attribute);
     if (is_script(name)) {
       return cannot(attribute.place, "a script in an entry", "write the script here");
