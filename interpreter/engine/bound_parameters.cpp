@@ -58,6 +58,11 @@ std::span<const std::string> BoundParameters::pool_of(const BoundNode& node) con
   return tree_.group(tree_.membership(node.node).group).resources;
 }
 
+bool BoundParameters::are_fixed(NodeIndex node) const {
+  return are_constant(node) ||
+         !tree_.bound[tree_.place_in_front(node, FrontCell::Bound)].may_change;
+}
+
 std::string BoundParameters::read(NodeIndex node) {
   if (are_constant(node)) return {};
   return read_bound(tree_.place_in_front(node, FrontCell::Bound));

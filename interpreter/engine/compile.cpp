@@ -14,6 +14,7 @@
 #include "engine/node_scripts.h"
 #include "engine/nodes/kinds.h"
 #include "engine/resources.h"
+#include "engine/writers.h"
 #include "tree/pace.h"
 #include "tree/paths.h"
 
@@ -144,6 +145,7 @@ class Compiler {
           {entry.name, entry.type, entry.initial, entry.object, entry.typing, entry.is_present});
     }
     add_labels();
+    find_fixed_parameters();
     return std::move(tree_);
   }
 
@@ -453,6 +455,24 @@ class Compiler {
                            .first_port = add_ports(from)});
     node.kind = bound_kind_of(node.kind);
     node.params = append_parameters(from);
+  }
+
+  // For example, seconds="{s}" in a tree that each SubTree gives another `s`.
+  void find_fixed_parameters() {
+    if (tree_.bound.empty()) return;
+    const auto takes_names = [](const NodeLabel& label) {
+      return std::ranges::any_of(label.type->parameters,
+                                 [](const Parameter& it) { return it.is_key || it.names_entry; });
+    };
+    if (std::ranges::any_of(tree_.labels, takes_names)) return;
+    const auto writers_of = writers(tree_);
+    for (BoundNode& bound : tree_.bound) {
+      const auto ports =
+          std::span(tree_.ports).subspan(bound.first_port, bound.kind->type.parameters.size());
+      bound.may_change = std::ranges::any_of(ports, [&](const PortBinding& port) {
+        return port.slot != PortBinding::kUnbound && !writers_of[port.slot].empty();
+      });
+    }
   }
 
   // Subtrees that are used often share their constants.

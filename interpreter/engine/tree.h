@@ -57,6 +57,7 @@ struct BoundNode {
   NodeIndex node;
   const NodeKind* kind;
   std::uint32_t first_port;  // in Tree::ports, one for each parameter
+  bool may_change = true;    // something in the tree may write one of its entries
 };
 
 // A compiled script and the entry of each name in it. Without code: the entry that has its text.

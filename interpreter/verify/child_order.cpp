@@ -26,13 +26,13 @@ ChildOrder::ChildOrder(const Tree& tree, const Symmetry& symmetry)
   std::iota(origins_.begin(), origins_.end(), NodeIndex{0});
 }
 
-void ChildOrder::keep() {
+void ChildOrder::put_back() {
   if (has_moved_) std::iota(origins_.begin(), origins_.end(), NodeIndex{0});
   has_moved_ = false;
 }
 
 void ChildOrder::sort(KeptState& state) {
-  keep();
+  put_back();
   symmetry_.number_kept_children(tree_, state.words, Symmetry::Numbered::FromNode);
   for (const EqualChildren& it : symmetry_.classes()) {
     const bool is_sorted = it.are_leaves() ? sort_leaves(it, state) : sort_subtrees(it, state);

@@ -26,8 +26,6 @@ class ChildOrder {
   ChildOrder(const Tree& tree, const Symmetry& symmetry);
 
   void sort(KeptState& state);
-  // In place of `sort`: all are where they were.
-  void keep();
   // After `sort`: of each place, the node that was there before; empty if all are where they were.
   std::span<const NodeIndex> origins() const {
     return has_moved_ ? std::span<const NodeIndex>(origins_) : std::span<const NodeIndex>();
@@ -36,6 +34,7 @@ class ChildOrder {
   void move(KeptState& state, std::span<const NodeIndex> places);
 
  private:
+  void put_back();  // all are where they were
   bool sort_leaves(const EqualChildren& it, const KeptState& state);
   bool sort_subtrees(const EqualChildren& it, const KeptState& state);
   void apply(const EqualChildren& it, KeptState& state);

@@ -238,8 +238,8 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
   }
   kept_.words = ticker.run_state().bytes;
   kept_.leaves = leaves.states();
-  // Equal children read the same entries, but not at the same moment.
-  if (children == Children::Sorted) read_.empty() ? order_.sort(kept_) : order_.keep();
+  // `read_` stays as it is: a node of Tree::bound is never in a child that may change its place.
+  if (children == Children::Sorted) order_.sort(kept_);
   into.clear();
   Writer writer(into);
   write(kept_, writer);

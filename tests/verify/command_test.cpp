@@ -175,6 +175,27 @@ TEST_CASE("a run that shows a finding has all ticks of a leaf, also several in o
   }
 }
 
+TEST_CASE("times of an entry that nothing writes have no more states than those of a number") {
+  const TemporaryDirectory directory;
+  for (const std::string node : {"Delay", "Rate", "Cooldown", "Timeout"}) {
+    const auto states = [&](const std::string& seconds) {
+      const std::string tree =
+          directory.file("tree.xml",
+                         "<root lockstep=\"1\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\">"
+                         "<SubTree ID=\"S\" s=\"0.3\"/></BehaviorTree><BehaviorTree ID=\"S\">"
+                         "<Repeat><ForceSuccess><" +
+                             node + " seconds=\"" + seconds + "\"><Action ID=\"A\"/></" + node +
+                             "></ForceSuccess></Repeat>"
+                             "</BehaviorTree></root>");
+      const Outcome outcome = run_lockstep(
+          {"verify", tree, "--mock", "--states", "1000", "--out", directory.path("."), "--json"});
+      return parse_json(outcome.out)["states"].get<int>();
+    };
+    INFO(node);
+    CHECK(states("{s}") == states("0.3"));
+  }
+}
+
 TEST_CASE("a tree without findings is verified, with what is assumed") {
   const TemporaryDirectory directory;
   const Outcome it = run_lockstep(

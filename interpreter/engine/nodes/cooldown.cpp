@@ -30,7 +30,7 @@ Status tick_cooldown(NodeContext& context, NodeIndex self) {
 
 void fold_cooldown(NodeContext& context, NodeIndex self) {
   CooldownState& state = context.state<CooldownState>(self);
-  const bool is_over = context.parameters().are_constant(self) && !cools(context, self, state);
+  const bool is_over = context.parameters().are_fixed(self) && !cools(context, self, state);
   if (!state.cools || is_over) return fold::dead(context, self);
   state.completed = -context.passed(state.completed);
 }

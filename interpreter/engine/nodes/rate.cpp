@@ -30,7 +30,7 @@ Status tick_rate(NodeContext& context, NodeIndex self) {
 void fold_rate(NodeContext& context, NodeIndex self) {
   if (context.status(self) == Status::Running) return timed::fold_by_clock(context, self);
   RateState& state = context.state<RateState>(self);
-  const bool is_over = context.parameters().are_constant(self) && timed::is_over(context, self);
+  const bool is_over = context.parameters().are_fixed(self) && timed::is_over(context, self);
   if (!is_complete(state.result) || is_over) return fold::dead(context, self);
   state.time = {.start = -context.passed(state.time.start), .paused_at = Nanoseconds(0)};
 }

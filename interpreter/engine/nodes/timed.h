@@ -111,7 +111,7 @@ inline void count_from_now(NodeContext& context, NodeIndex self, bool stands_whi
                            Nanoseconds limit) {
   State& state = context.state<State>(self);
   const bool is_paused = context.activity(self) == Activity::Paused;
-  if (!context.parameters().are_constant(self)) {
+  if (!context.parameters().are_fixed(self)) {
     state.start = -context.passed(state.start);
     state.paused_at = is_paused ? -context.passed(state.paused_at) : Nanoseconds(0);
     return;

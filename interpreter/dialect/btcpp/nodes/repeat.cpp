@@ -63,7 +63,7 @@ void forget_repeat(NodeContext& context, NodeIndex self) {
 // How often does not matter for ever.
 void fold_repeat(NodeContext& context, NodeIndex self) {
   const bool is_endless = context.parameter(self, 0).integer == kEndless;
-  if (is_endless && context.parameters().are_constant(self)) fold::dead(context, self);
+  if (is_endless && context.parameters().are_fixed(self)) fold::dead(context, self);
 }
 
 double progress_of_repeat(NodeContext& context, NodeIndex self) {

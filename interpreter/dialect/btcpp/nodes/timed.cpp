@@ -49,8 +49,8 @@ void forget_timed(NodeContext& context, NodeIndex self) {
 // A start relative to now. If no entry changes the time, at most that has passed.
 Nanoseconds folded(NodeContext& context, NodeIndex self, Nanoseconds start) {
   const Nanoseconds passed = context.passed(start);
-  const bool is_constant = context.parameters().are_constant(self);
-  if (!is_constant) return -passed;
+  const bool is_fixed = context.parameters().are_fixed(self);
+  if (!is_fixed) return -passed;
   return -std::min(passed, context.deadlines().at_least(time_of(context, self)));
 }
 
