@@ -692,6 +692,25 @@ TEST_CASE("convert writes a BlackboardCheck of version 3 as a WhileDoElse") {
                  "return_on_mismatch=\"RUNNING\" cannot be expressed"));
 }
 
+TEST_CASE("convert keeps an entry of a SubTree that is called code") {
+  const TemporaryDirectory directory;
+  const std::string attributes = "code=\"b and k\"", not_a_script = "code=\"it's @g\"";
+  for (const std::string& text : {attributes, not_a_script}) {
+    const std::string tree =
+        "<root lockstep=\"1\" main_tree_to_execute=\"M\"><BehaviorTree "
+        "ID=\"M\"><SubTree ID=\"S\" " +
+        text +
+        "/></BehaviorTree><BehaviorTree ID=\"S\"><Check code=\"code != ''\"/>"
+        "</BehaviorTree></root>";
+    const Outcome there = run_lockstep({"convert", directory.file("ours.xml", tree)});
+    CHECK(there.code == 0);
+    CHECK(contains(there.out, text));
+    const Outcome back = run_lockstep({"convert", directory.file("theirs.xml", there.out)});
+    CHECK(back.code == 0);
+    CHECK(contains(back.out, text));
+  }
+}
+
 TEST_CASE("convert warns of a fault that the other language may not have") {
   const TemporaryDirectory directory;
   const auto errors = [&](const std::string& value, const std::string& code) {

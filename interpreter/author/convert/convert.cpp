@@ -620,8 +620,10 @@ class Converter {
     return true;
   }
 
-  // Of a built-in node.
-  bool is_script(std::string_view name) const { return pair_ != nullptr && name == "code"; }
+  // Of a built-in node. That of a SubTree is an entry of its tree.
+  bool is_script(std::string_view name) const {
+    return pair_ != nullptr && pair_->ours != "SubTree" && name == "code";
+  }
 
   void convert_script(const XmlToken& token, const Attribute& attribute, std::string_view name) {
     const auto script = converted_script(attribute.value);
