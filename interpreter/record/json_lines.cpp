@@ -219,16 +219,18 @@ void add_fault(std::string& text, const Fault& fault) {
   text += ']';
 }
 
-void add_entry(std::string& text, const EntryChange& it) {
-  add_number(text += '[', it.entry);
+void add_value(std::string& text, std::uint32_t entry, const std::string* value) {
+  add_number(text += '[', entry);
   text += ',';
-  if (it.text != nullptr) {
-    append_json(text, *it.text);
+  if (value != nullptr) {
+    append_json(text, *value);
   } else {
     text += "null";
   }
   text += ']';
 }
+
+void add_entry(std::string& text, const EntryChange& it) { add_value(text, it.entry, it.text); }
 
 void add_log(std::string& text, const LeafLine& log) {
   text += '[';
@@ -246,6 +248,17 @@ void add_set(std::string& text, std::span<const EntryChange> entries) {
     if (!it.is_set) continue;
     if (separator == nullptr) ((text += ",\"") += lines::kTick["set"]) += "\":[";
     add_number(text += separator == nullptr ? "" : separator, it.entry);
+    separator = ",";
+  }
+  if (separator != nullptr) text += ']';
+}
+
+void add_given(std::string& text, std::span<const EntryChange> entries) {
+  const char* separator = nullptr;
+  for (const EntryChange& it : entries) {
+    if (!it.is_written_again) continue;
+    if (separator == nullptr) ((text += ",\"") += lines::kTick["given"]) += "\":[";
+    add_value(text += separator == nullptr ? "" : separator, it.entry, it.given);
     separator = ",";
   }
   if (separator != nullptr) text += ']';
@@ -364,6 +377,7 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
   add_list(text, lines::kTick["faults"], end.faults, add_fault);
   add_list(text, lines::kTick["entries"], end.entries, add_entry);
   add_set(text, end.entries);
+  add_given(text, end.entries);
   add_list(text, lines::kTick["logs"], end.logs, add_log);
   if (end.whole) add_whole(text, *end.whole);
   text += end.is_full ? kFullEnd : "}\n";

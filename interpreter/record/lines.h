@@ -276,6 +276,10 @@ constexpr Field kTickFields[] = {
      "only if there are any: those of `entries` that were written between the tick before and this "
      "one, such as by `<set>` of a scenario, in the monitor or by a program that embeds lockstep. "
      "The tree may have written them again in the tick"},
+    {"given", "EntryValue[]", kMaybe,
+     "only if there are any: {} for each of `set` that the tick has written again. The value is "
+     "the "
+     "one that came from outside; `entries` has that after the tick"},
     {"logs", "LogLine[]", kMaybe,
      "only if there are any: {} for each line that a leaf logged since the line before: the path "
      "of the leaf or the name of its plugin (of a stall that is reported or ended in this tick: "

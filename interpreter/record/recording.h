@@ -90,7 +90,8 @@ struct RecordedTick {
   std::span<const RecordedHeard> heard = {};
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
-  std::span<const std::uint32_t> set = {};  // of these: written since the tick before, too
+  std::span<const std::uint32_t> set = {};    // of these: written since the tick before, too
+  std::span<const RecordedEntry> given = {};  // what they had then, if the tick wrote them again
   std::span<const LeafLine> logs = {};
   // The line has the whole state: each entry that has a value.
   std::optional<std::span<const RecordedEntry>> whole = {};

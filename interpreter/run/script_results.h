@@ -58,6 +58,12 @@ inline std::optional<Hook> hook_of_fault(const Tree& tree, NodeIndex node,
   return is_there ? hook : std::nullopt;
 }
 
+// Whether the node assigns to the entry when it is halted.
+inline bool is_set_by_halt(const Tree& tree, NodeIndex node, std::uint32_t slot) {
+  return has_script(tree, node) &&
+         assigns(tree, tree.hooked[tree.hooks[node]].script(Hook::OnHalted), slot);
+}
+
 // Whether a script around the ticks of the node that assigns to the entry may have run at the end
 // of a tick with that result.
 inline bool may_be_set_at_end(const Tree& tree, NodeIndex node, Status status, std::uint32_t slot) {

@@ -15,6 +15,7 @@
 #include "judge/measure/entry_changes.h"
 #include "judge/summary/standstills.h"
 #include "judge/summary/statistics.h"
+#include "language/document/well_formed.h"
 #include "record/read/recorded_moments.h"
 #include "record/read/recording_parts.h"
 #include "record/read/recording_reader.h"
@@ -34,7 +35,9 @@ class WordMaker {
         words_(words),
         results_(header, tree),
         calls_(header, tree),
-        moments_(header) {
+        moments_(header),
+        values_(header.entries.size()),
+        before_(header.nodes.size()) {
     std::map<std::string, NodeIndex> recorded;
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
       recorded[header.nodes[node].path] = node;
@@ -84,17 +87,10 @@ class WordMaker {
              it.who, tick.tick);
       }
     }
+    for (const RecordedEntry& entry : tick.entries) values_[entry.entry] = entry.value;
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, moment, calls_.of(i), leaves_[i]);
-    for (const RecordedEntry& entry : tick.entries) {
-      if (is_of_tree(tick, entry)) continue;
-      const std::string& key = header_.entries[entry.entry].key;
-      if (tick.tick == 0 && header_.values.contains(key)) continue;
-      if (!entry.value) {
-        note_too_long(fmt::format("what set '{}' in tick {}", key, tick.tick));
-        continue;
-      }
-      words_.changes.push_back({key, *entry.value, tick.tick});
-    }
+    for (const RecordedEntry& entry : tick.entries) take_change(tick, entry);
+    for (NodeIndex node = 0; node < before_.size(); ++node) before_[node] = tick.nodes[node].status;
   }
 
   // The fault that has ended the run: "Main/arm: fails as a program". No tick names it, and its
@@ -120,18 +116,31 @@ class WordMaker {
 
   void finish() {
     note_not_recorded();
+    leave_out_what_xml_lacks();
     std::erase_if(words_.leaves, [](const auto& it) { return it.second.empty(); });
   }
 
  private:
+  // Of an entry that was set from outside, what it was set to: the tree may have written it again.
+  void take_change(const RecordedTick& tick, const RecordedEntry& entry) {
+    const std::string& key = header_.entries[entry.entry].key;
+    const bool is_set = std::ranges::find(tick.set, entry.entry) != tick.set.end();
+    const bool is_start = tick.tick == 0 && header_.values.contains(key);
+    if (!is_set && (is_start || is_of_tree(tick, entry))) return;
+    const auto given = std::ranges::find(tick.given, entry.entry, &RecordedEntry::entry);
+    const auto& value = given == tick.given.end() ? entry.value : given->value;
+    if (!value) return note_too_long(fmt::format("what set '{}' in tick {}", key, tick.tick));
+    if (is_start) std::erase_if(words_.changes, [&](const auto& it) { return it.key == key; });
+    words_.changes.push_back({key, *value, tick.tick});
+  }
+
   // Nodes and scripts of the tree write it. The first values may be from elsewhere.
   bool is_of_tree(const RecordedTick& tick, const RecordedEntry& entry) const {
     const auto& writers = writers_[entry.entry];
     const auto is_ticked = [&] {
       return std::ranges::any_of(writers, [&](NodeIndex it) { return tick.nodes[it].ticked; });
     };
-    const bool is_set = std::ranges::find(tick.set, entry.entry) != tick.set.end();
-    if (tick.tick > 0) return !writers.empty() && (!is_set || is_ticked());
+    if (tick.tick > 0) return !writers.empty();
     const std::string& initial = initial_[entry.entry];
     const bool is_initial =
         entry.value ? entry.value == initial : initial.size() > EntryChanges::kLongest;
@@ -186,6 +195,31 @@ class WordMaker {
         fmt::format("the recording does not have the values of {}: what leaves wrote there, or "
                     "others set, is not in the scenario",
                     listed(lacking)));
+  }
+
+  // For example, the byte that begins an escape sequence.
+  void leave_out_what_xml_lacks() {
+    const auto has_it = [&](const std::string& what, const std::string& value) {
+      const auto fault = check_encoding(value);
+      if (fault) {
+        words_.notes.push_back(
+            fmt::format("the value of {} is not in the scenario: {}", what, fault->message));
+      }
+      return !fault.has_value();
+    };
+    std::erase_if(words_.arguments, [&](const auto& it) {
+      return !has_it(fmt::format("the argument '{}'", it.first), it.second);
+    });
+    std::erase_if(words_.changes, [&](const auto& it) {
+      return !has_it(fmt::format("'{}' in tick {}", it.key, it.tick), it.value);
+    });
+    for (auto& [path, words] : words_.leaves) {
+      for (LeafWord& word : words) {
+        std::erase_if(word.written, [&](const auto& it) {
+          return !has_it(fmt::format("the output '{}' of '{}'", it.first, path), it.second);
+        });
+      }
+    }
   }
 
   static bool is_script(const Tree& tree, NodeIndex node) {
@@ -302,6 +336,28 @@ class WordMaker {
     });
   }
 
+  // Whether a node that was halted in this tick may have written the entry: before the leaf or
+  // after it.
+  bool is_set_by_halt(const RecordedTick& tick, std::size_t entry, std::uint32_t slot) const {
+    return std::ranges::any_of(setters_[entry], [&](const Setter& it) {
+      const bool has_run = tick.nodes[it.node].ticked || before_[it.node] == Status::Running;
+      return has_run && tick.nodes[it.node].status == Status::Idle &&
+             host::is_set_by_halt(tree_, it.in_tree, slot);
+    });
+  }
+
+  // Whether the entry may have had another value in this tick, until the leaf wrote it.
+  bool is_put_back(const RecordedTick& tick, std::uint32_t entry, const Leaf& leaf,
+                   std::uint32_t slot, bool is_only) const {
+    if (std::ranges::find(tick.set, entry) != tick.set.end()) return true;
+    return std::ranges::any_of(setters_[entry], [&](const Setter& it) {
+      if (!tick.nodes[it.node].ticked || it.node == leaf.node) return false;
+      if (it.in_tree >= leaf.leaf->node && is_only) return false;
+      return it.is_script || tree_.labels[it.in_tree].type->leaf != nullptr ||
+             may_be_set_at_end(tree_, it.in_tree, tick.nodes[it.node].status, slot);
+    });
+  }
+
   // Whether another leaf may have written the entry after it.
   bool is_shared(const RecordedTick& tick, std::size_t entry, NodeIndex leaf) const {
     return std::ranges::any_of(setters_[entry], [&](const Setter& it) {
@@ -339,9 +395,11 @@ class WordMaker {
         } else if (!entry.value) {
           note_too_long(
               fmt::format("what '{}' wrote to '{}' in tick {}", path, key.key, tick.tick));
-        } else {
+        } else if (is_value_of(port, *entry.value)) {
           word.written.emplace_back(port.name, *entry.value);
-          if (is_only && !is_shared(tick, entry.entry, it.leaf->node)) return;
+          const bool is_told = is_only && !is_shared(tick, entry.entry, it.leaf->node) &&
+                               !is_set_by_halt(tick, entry.entry, slot);
+          if (is_told) return;
           note(Lacks::OtherValues,
                "'{}' may have been written several times in tick {}: only its last value is "
                "recorded, and '{}' writes that",
@@ -349,19 +407,32 @@ class WordMaker {
         }
       });
     }
-    note_put_back(tick, it);
+    add_same(tick, it, word, is_only);
   }
 
-  // Where a script has written after the leaf and the entry has not changed, it may have put back
-  // the value.
-  void note_put_back(const RecordedTick& tick, const Leaf& it) {
-    each_output(it, [&](const Parameter&, std::uint32_t slot) {
+  // In a tree for BehaviorTree.CPP, the entry may have what a script has written, which is no value
+  // of the port.
+  static bool is_value_of(const Parameter& port, const std::string& text) {
+    return port.type == ValueType::Object || parse_value(port.type, text).has_value();
+  }
+
+  // Entries that have changed and have their value again. A leaf may have put it back: found :=
+  // false, and the leaf finds it. Or a script has after it.
+  void add_same(const RecordedTick& tick, const Leaf& it, LeafWord& word, bool is_only) {
+    each_output(it, [&](const Parameter& port, std::uint32_t slot) {
       const auto key = std::ranges::find(header_.entries, tree_.slots[slot].name, &ShapeEntry::key);
       if (key == header_.entries.end()) return;
       const auto entry = static_cast<std::uint32_t>(key - header_.entries.begin());
       const bool has_changed =
           std::ranges::find(tick.entries, entry, &RecordedEntry::entry) != tick.entries.end();
-      if (has_changed || !is_overwritten(tick, entry, it.leaf->node, slot)) return;
+      if (has_changed) return;
+      if (!is_overwritten(tick, entry, it.leaf->node, slot)) {
+        const auto& value = values_[entry];
+        const bool may_be =
+            value && is_value_of(port, *value) && is_put_back(tick, entry, it, slot, is_only);
+        if (may_be) word.written.emplace_back(port.name, *value);
+        return;
+      }
       note(Lacks::Value,
            "a script wrote '{}' in tick {} after '{}', and it has the value that it had: what this "
            "leaf writes is not recorded",
@@ -381,7 +452,9 @@ class WordMaker {
     NodeIndex node, in_tree;
     bool is_script;  // as its parameter says, not around its ticks
   };
-  std::vector<std::vector<Setter>> setters_;  // of each entry
+  std::vector<std::vector<Setter>> setters_;        // of each entry
+  std::vector<std::optional<std::string>> values_;  // of each entry: the last that is known
+  std::vector<Status> before_;                      // of each node, after the tick before
   std::set<Lacks> noted_;
   std::vector<std::string> initial_;  // of each entry: what the tree gives it
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -15,7 +16,9 @@
 #include "base/system/replace_text.h"
 #include "language/document/document.h"
 #include "language/document/file.h"
+#include "language/document/scanner.h"
 #include "language/document/value_text.h"
+#include "language/document/well_formed.h"
 #include "scenario/binding_reader.h"
 
 namespace lockstep::host {
@@ -54,18 +57,28 @@ struct Existing {
   std::size_t end = 0;  // where more scenarios come
 };
 
+// Its last close tag, which is none in a comment.
+std::optional<std::size_t> end_of_scenarios(std::string_view text) {
+  std::optional<std::size_t> last;
+  Scanner scanner(text);
+  for (XmlToken token = scanner.next(); token.kind != TokenKind::End; token = scanner.next()) {
+    if (token.kind == TokenKind::Fault) return std::nullopt;
+    if (token.kind == TokenKind::CloseTag) last = token.begin;
+  }
+  return last;
+}
+
 Result<Existing> read_existing(const std::string& path) {
   auto text = read_file(path, Document::kMaxBytes);
   if (!text) return problem(fmt::format("cannot read '{}': {}", path, text.error().message));
   Diagnostics diagnostics;
   auto document = Document::parse(path, *text, diagnostics);
-  const auto end = text->rfind(kEnd);
-  if (document == nullptr || document->elements()[0].tag != "scenarios" ||
-      end == std::string::npos) {
+  const auto end = end_of_scenarios(*text);
+  if (document == nullptr || document->elements()[0].tag != "scenarios" || !end) {
     return problem(fmt::format("'{}' is not a file of scenarios", path),
                    "it ends with </scenarios>");
   }
-  return Existing{std::move(*text), std::move(document), end};
+  return Existing{std::move(*text), std::move(document), *end};
 }
 
 std::vector<std::string_view> names_in(const Document& document) {
@@ -94,11 +107,11 @@ std::string ending_text(const RecordedWords& words) {
 std::string to_text(const RecordedWords& words, const ScenarioText& about) {
   std::string text;
   for (const std::string& line : about.comments) {
-    std::string safe = line;
+    std::string safe = printable(line);
     for (auto at = safe.find("--"); at != std::string::npos; at = safe.find("--")) safe[at] = ' ';
     text += fmt::format("  <!-- {} -->\n", safe);
   }
-  text += fmt::format("  <scenario name=\"{}\"", literal(about.name));
+  text += fmt::format("  <scenario name=\"{}\"", literal(printable(about.name)));
   if (!about.tree.empty()) text += fmt::format(" tree=\"{}\"", literal(about.tree));
   if (!about.main.empty()) text += fmt::format(" main=\"{}\"", literal(about.main));
   if (words.rate) text += fmt::format(" rate=\"{}\"", *words.rate);
@@ -129,9 +142,14 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
   return text + "  </scenario>\n";
 }
 
-std::string scenario_file(const std::string& tree, const std::string& scenarios) {
-  return fmt::format("<scenarios lockstep=\"1\" tree=\"{}\">\n{}{}\n", escaped(tree), scenarios,
-                     kEnd);
+Result<std::string> scenario_file(const std::string& tree, const std::string& scenarios) {
+  std::string text =
+      fmt::format("<scenarios lockstep=\"1\" tree=\"{}\">\n{}{}\n", escaped(tree), scenarios, kEnd);
+  if (const auto fault = check_encoding(text)) {
+    return problem(fmt::format("a scenario cannot have this text: {}", fault->message),
+                   "it has the names of the tree file, of nodes and of properties");
+  }
+  return text;
 }
 
 Result<std::string> tree_in_scenario_file(const std::string& path, const ScenarioTree& tree) {
@@ -161,12 +179,13 @@ Result<void> add_to_scenario_file(const std::string& path, const ScenarioTree& t
                                   const std::string& scenarios) {
   if (const auto fits = tree_in_scenario_file(path, tree); !fits)
     return tl::unexpected(fits.error());
-  const std::string whole = scenario_file(named_in(path, tree.file), scenarios);
-  if (!std::filesystem::exists(path)) return create_text(path, whole);
+  const auto whole = scenario_file(named_in(path, tree.file), scenarios);
+  if (!whole) return tl::unexpected(whole.error());
+  if (!std::filesystem::exists(path)) return create_text(path, *whole);
   const auto existing = read_existing(path);
   if (!existing) return tl::unexpected(existing.error());
   Diagnostics diagnostics;
-  const auto added = Document::parse(path, whole, diagnostics);
+  const auto added = Document::parse(path, *whole, diagnostics);
   const auto there = names_in(*existing->document);
   for (const std::string_view name : names_in(*added)) {
     if (std::ranges::find(there, name) == there.end()) continue;

@@ -28,8 +28,8 @@ struct ScenarioTree {
 
 // <scenario>…</scenario>, indented by two blanks.
 std::string to_text(const RecordedWords& words, const ScenarioText& about);
-// A file with these scenarios about a tree.
-std::string scenario_file(const std::string& tree, const std::string& scenarios);
+// A file with these scenarios about a tree. An error if XML does not have some character of it.
+Result<std::string> scenario_file(const std::string& tree, const std::string& scenarios);
 // ScenarioText::tree of scenarios that are added to this file, or with which it is made. An error
 // if they cannot be: the file is about another tree, or a scenario cannot name theirs.
 Result<std::string> tree_in_scenario_file(const std::string& path, const ScenarioTree& tree);

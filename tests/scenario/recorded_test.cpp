@@ -14,15 +14,21 @@ struct RecordedRun {
   std::string leaves;  // NAME.leaves or a leaf file; "": those of plugins
   std::string name = "t.leaves.xml";
   std::string root = R"(lockstep="1")";
+  std::string models = "";
 };
+
+const std::string kLooks =
+    R"(<TreeNodesModel><Action ID="Look"><output_port name="found" type="bool"/></Action>
+</TreeNodesModel>)";
 
 // The scenario that is made of the run, if the run is the same when it is played.
 std::string scenario_of(const RecordedRun& it, int seed = 0) {
   const TemporaryDirectory directory;
-  const std::string tree = directory.file("t.xml",
-                                          "<root " + it.root +
-                                              R"(><plugin name="motion"/><plugin name="fetch"/>
-<BehaviorTree ID="T">)" + it.nodes + "</BehaviorTree></root>");
+  const std::string tree =
+      directory.file("t.xml", "<root " + it.root +
+                                  R"(><plugin name="motion"/><plugin name="fetch"/>
+<BehaviorTree ID="T">)" + it.nodes +
+                                  "</BehaviorTree>" + it.models + "</root>");
   const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
   std::vector<std::string> command = {
       "run",         tree,     "--rate",   "10",     "--clock",
@@ -107,6 +113,24 @@ TEST_CASE("what the tree itself gives an entry is not in the scenario of a recor
                    .leaves = "",
                    .root = R"(lockstep="1" main_tree_to_execute="T")"});
   CHECK_FALSE(contains(text, "<set"));
+}
+
+TEST_CASE("a leaf that puts an entry back writes it in the scenario") {
+  const std::string nodes =
+      R"(<Repeat times="3"><Sequence memory="true"><Script code="found := false"/>
+<Action ID="Look" found="{found}"/><Check code="found"/></Sequence></Repeat>)";
+  const std::string text = scenario_of(
+      {nodes, "@rate 10\nT/Repeat/Sequence/Look = S[found=true] S[found=true] S[found=true]\n",
+       "t.leaves", R"(lockstep="1")", kLooks});
+  CHECK(contains(text, R"(does="S[found=true]*3"/>)"));
+}
+
+TEST_CASE("a leaf does not write what is no value of its port in the scenario") {
+  const std::string text =
+      scenario_of({R"(<Sequence><Script code="found := 'x'"/><Action ID="Look" found="{found}"/>
+</Sequence>)",
+                   "@rate 10\nT/Sequence/Look = S\n", "t.leaves", R"(BTCPP_format="4")", kLooks});
+  CHECK(!contains(text, "found="));
 }
 
 TEST_CASE("a fault that has ended the run is one of its leaf in the scenario") {
@@ -242,6 +266,56 @@ on_failure="seen := 4"/><Script code="n := seen"/></Sequence>)",
       made(R"(<Advance name="a" step="0.1" on_halt="n := 1 / 0"/>)", {"--max-ticks", "3"});
   CHECK(contains(halted.err, "'T/a' could not be halted after the last tick"));
   CHECK(contains(halted.out, R"(/a" does="R0.1 R0.2*2"/>)"));
+}
+
+TEST_CASE("a halt that writes an entry after a leaf is said in the scenario") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T">
+<Sequence memory="true"><Script code="k := 0"/><Parallel name="p"><Go name="a" on_halt="k += 1"/>
+<Go name="b" num="{k}"/><Go name="c"/></Parallel></Sequence></BehaviorTree><TreeNodesModel>
+<Action ID="Go"><output_port name="num" type="int"/></Action></TreeNodesModel></root>)");
+  const std::string leaves = directory.file(
+      "t.leaves",
+      "@rate 10\nT/Sequence/p/a = R\nT/Sequence/p/b = R R[num=2]\nT/Sequence/p/c = R F\n");
+  const std::string run = directory.path("run.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--leaves", leaves, "--clock", "virtual", "--view", "none",
+                        "--record", run})
+              .code == 1);
+  CHECK(contains(run_lockstep({"log", "scenario", run}).err,
+                 "'k' may have been written several times in tick 1: only its last value is "
+                 "recorded, and 'T/Sequence/p/b' writes that"));
+}
+
+TEST_CASE("a scenario has no text that XML does not have, and is added to the scenarios only") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T">
+<Script code="n := m"/></BehaviorTree></root>)");
+  const std::string run = directory.path("run.jsonl"), odd = directory.path("r\xe9.jsonl");
+  const auto record = [&](const std::string& value, const std::string& to) {
+    REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--set",
+                          "m=" + value, "--record", to})
+                .code == 0);
+  };
+  record("a", run);
+  record("a", odd);
+  const std::string comment = "<!-- before: <scenarios>\n</scenarios> -->\n";
+  const std::string file = directory.file("t.test.xml", R"(<scenarios lockstep="1" tree="t.xml">
+<scenario name="mine"><set key="m" value="a"/><expect result="success"/></scenario></scenarios>
+)" + comment);
+  CHECK(run_lockstep({"log", "scenario", odd, "--save", file}).code == 0);
+  CHECK(run_lockstep({"log", "scenario", run, "--save", file, "--name", "x\x1b"}).code == 0);
+  record("\x1b", run);
+  const Outcome left_out = run_lockstep({"log", "scenario", run, "--save", file, "--name", "z"});
+  CHECK(left_out.code == 0);
+  CHECK(contains(left_out.err,
+                 "note: the value of 'm' in tick 0 is not in the scenario: control "
+                 "character \\x1B in the text"));
+  const Outcome played = run_lockstep({"test", file});
+  INFO(read_file(file) << played.out << played.err);
+  CHECK(contains(played.out, "as in r\\xE9.jsonl"));
+  CHECK(contains(played.out, "x\\x1B"));
+  CHECK(contains(played.out, "4 scenarios: 3 passed, 1 invalid"));  // 'z' lacks a value
+  CHECK(read_file(file).ends_with(comment));
 }
 
 TEST_CASE("a value that the recording does not have is named in the scenario and on stderr") {

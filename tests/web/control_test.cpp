@@ -105,6 +105,33 @@ TEST_CASE("a flag of a tree is set by a text or by a value of JSON, and does wha
   }
 }
 
+TEST_CASE(
+    "a value that a run takes and puts back is in its recording, and in the scenario of that") {
+  const TemporaryDirectory directory;
+  const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
+  {
+    Controlled it(directory,
+                  tree_text("<Sequence memory='true'><Check code='w == 0.2'/><Script code='go := "
+                            "false'/><WaitUntil code='go'/><Script code='go = false'/></Sequence>"),
+                  {"--clock", "virtual", "--set", "w=1.5", "--record", run});
+    CHECK(it.order({{"do", "set"}, {"entry", "w"}, {"value", "0.2"}}).status == 204);
+    it.order({{"do", "step"}, {"ticks", 3}});
+    it.wait_for_tick(2);
+    CHECK(it.order({{"do", "set"}, {"entry", "go"}, {"value", "true"}}).status == 204);
+    it.order({{"do", "resume"}});
+    it.events().finish();
+    CHECK(it.run().process().finish().code == 0);
+  }
+  CHECK(contains(read_file(run), R"("set":[1],"given":[[1,"true"]]})"));
+  CHECK(run_lockstep({"log", "scenario", run, "--save", file}).code == 0);
+  const std::string text = read_file(file);
+  INFO(text);
+  CHECK(contains(text, R"(<set key="w" value="0.2" tick="0"/>)"));
+  CHECK(!contains(text, R"(key="w" value="1.5")"));
+  CHECK(contains(text, R"(<set key="go" value="true" tick="3"/>)"));
+  CHECK(run_lockstep({"test", file}).code == 0);
+}
+
 TEST_CASE("a breakpoint that is neither on nor off is refused") {
   Controlled it(kPull, {"--clock", "virtual", "--set", "pause=0.05"});
   const Response wrong =

@@ -51,13 +51,24 @@ EntryChanges::EntryChanges(const std::vector<std::uint32_t>& slots) {
     Watched& watched = watched_.emplace_back(Watched{.slot = slot});
     watched.text.reserve(kNumber);
     watched.next.reserve(kNumber);
+    watched.given.reserve(kNumber);
   }
   changes_.reserve(slots.size());
   values_.reserve(slots.size());
 }
 
+void EntryChanges::begin(std::span<const Entry> entries) {
+  for (Watched& it : watched_) it.writes_of_tick = entries[it.slot].changes();
+}
+
 void EntryChanges::before_tick(std::span<const Entry> entries) {
-  for (Watched& it : watched_) it.is_set |= entries[it.slot].changes() != it.writes_of_tick;
+  for (Watched& it : watched_) {
+    const Entry& entry = entries[it.slot];
+    if (entry.changes() == it.writes_of_tick) continue;
+    it.writes_of_tick = entry.changes();
+    it.is_set = entry.has_value();
+    if (it.is_set) it.has_given = put_short(entry.value(), it.given);
+  }
 }
 
 std::span<const EntryChange> EntryChanges::changes(std::span<const Entry> entries) {
@@ -70,12 +81,19 @@ std::span<const EntryChange> EntryChanges::changes(std::span<const Entry> entrie
     if (!entry.has_value()) continue;
     // A text that is too long may be another value, so it is shown each time it is written.
     const bool is_short = put_short(entry.value(), watched.next);
-    if (is_short && watched.has_text && watched.next == watched.text) {
+    // For example, a button: it was set to true, and the tree has put it back to false.
+    const bool is_written_again =
+        watched.is_set && !(is_short && watched.has_given && watched.next == watched.given);
+    const bool is_same = is_short && watched.has_text && watched.next == watched.text;
+    if (is_same && !is_written_again) {
       watched.writes = entry.changes();
       watched.is_set = false;
     } else {
-      changes_.push_back(
-          {.entry = number, .text = is_short ? &watched.next : nullptr, .is_set = watched.is_set});
+      changes_.push_back({.entry = number,
+                          .text = is_short ? &watched.next : nullptr,
+                          .is_set = watched.is_set,
+                          .is_written_again = is_written_again,
+                          .given = watched.has_given ? &watched.given : nullptr});
     }
   }
   entries_ = entries;

@@ -13,9 +13,11 @@
 namespace lockstep::host {
 
 struct EntryChange {
-  std::uint32_t entry = 0;            // its number among those that are watched
-  const std::string* text = nullptr;  // its value; null: it is too long
-  bool is_set = false;                // it was written between ticks, perhaps also in the tick
+  std::uint32_t entry = 0;             // its number among those that are watched
+  const std::string* text = nullptr;   // its value; null: it is too long
+  bool is_set = false;                 // it was written between ticks, perhaps also in the tick
+  bool is_written_again = false;       // it was: then `given` is what it had before the tick
+  const std::string* given = nullptr;  // null: it is too long
 };
 
 // The state of an entry after a tick.
@@ -37,6 +39,8 @@ class EntryChanges {
   // For these slots of the blackboard, numbered in this order.
   explicit EntryChanges(const std::vector<std::uint32_t>& slots);
 
+  // Call once before the first tick: what was written until then is no change of a tick.
+  void begin(std::span<const Entry> entries);
   // May be called before a tick whose changes() come: finds what was written since the last ones.
   void before_tick(std::span<const Entry> entries);
   // Call after a tick. The result is valid until the next call. Allocates only if a text is longer
@@ -58,6 +62,8 @@ class EntryChanges {
     bool has_text = false;                     // else nothing was kept, or that it is too long
     std::string text = {};                     // that was kept
     std::string next = {};                     // to be kept
+    bool has_given = false;                    // if is_set: it is not too long
+    std::string given = {};                    // what it was set to
   };
   std::vector<Watched> watched_;
   std::vector<EntryChange> changes_, values_;

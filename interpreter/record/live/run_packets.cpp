@@ -82,10 +82,15 @@ void RunPackets::log(std::string_view who, std::string_view level, std::string_v
   lines_.add(who, level, text);
 }
 
+void RunPackets::begin(const Moment& moment) {
+  entries_.begin(moment.entries);
+  looked_ = moment.number;
+}
+
 // What came between two ticks shows only to who has looked at the first.
 void RunPackets::before_tick(const Moment& moment) {
   delta_.before_tick(moment);
-  if (looked_ != 0 && looked_ == moment.number) entries_.before_tick(moment.entries);
+  if (looked_ == moment.number) entries_.before_tick(moment.entries);
 }
 
 Packet RunPackets::tick(const Moment& moment, const TickReport& report) {

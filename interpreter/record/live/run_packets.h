@@ -37,6 +37,8 @@ class RunPackets {
 
   std::string header(const RunStart& start) const;
 
+  // Call before the first tick: what came before this is no change.
+  void begin(const Moment& moment);
   // Before a tick that is to become a packet: asks every running node for its progress.
   void before_tick(const Moment& moment);
   // The changes since the last packet that was kept. Valid until the next call.
@@ -72,7 +74,8 @@ class RunPackets {
   LeafLines lines_;
   std::vector<ReasonChange> reasons_;  // those that may be recorded
   std::string line_end_;               // of the tick, for its room
-  std::uint32_t looked_ = 0;           // the number of the last tick that tick() was called for
+  // The number of the last tick that tick() was called for, or of that before the first.
+  std::optional<std::uint32_t> looked_ = {};
   bool is_full_ = false, is_whole_ = false;
   bool has_events_ = false;
 };

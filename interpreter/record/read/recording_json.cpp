@@ -410,6 +410,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   leaf_progress_.clear();
   entries_.clear();
   set_.clear();
+  given_.clear();
   logs_.clear();
   const auto read_nodes = [&](JsonValue value) {
     has_nodes = true;
@@ -507,6 +508,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["faults"], read_faults, kMayLack},
          {lines::kTick["entries"], read_entries(entries_), kMayLack},
          {lines::kTick["set"], read_set, kMayLack},
+         {lines::kTick["given"], read_entries(given_), kMayLack},
          {lines::kTick["whole"], read_whole, kMayLack},
          {lines::kTick["logs"], into_logs(logs_), kMayLack},
          {lines::kLostLine["lost"], [&](JsonValue value) { gap = gap_from(value.object()); },
@@ -541,6 +543,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                       .faults = faults_,
                       .entries = entries_,
                       .set = set_,
+                      .given = given_,
                       .logs = logs_};
   if (is_whole) result.whole = whole_;
   return result;

@@ -46,6 +46,7 @@ class RecordingJson {
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
   std::vector<std::uint32_t> set_;
+  std::vector<RecordedEntry> given_;
   std::vector<RecordedEntry> whole_;
   std::vector<LeafLine> logs_;
   std::size_t keys_ = 0;     // how many entries the header names

@@ -186,9 +186,13 @@ struct MergedTick {
       faults.push_back({.node = node(it.node), .message = it.message});
     for (const RecordedEntry& it : tick.entries) {
       const bool is_set = std::ranges::find(tick.set, it.entry) != tick.set.end();
+      const auto given = std::ranges::find(tick.given, it.entry, &RecordedEntry::entry);
+      const bool is_given = given != tick.given.end();
       entries.push_back({.entry = robot.first_entry + it.entry,
                          .text = it.value ? &*it.value : nullptr,
-                         .is_set = is_set});
+                         .is_set = is_set,
+                         .is_written_again = is_given,
+                         .given = is_given && given->value ? &*given->value : nullptr});
     }
     for (const LeafLine& it : tick.logs) logs.push_back(line_of(robot, it));
   }

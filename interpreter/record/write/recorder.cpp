@@ -48,7 +48,8 @@ Recorder::Recorder(const Shape& shape, RecorderOptions options)
       next_whole_(options_.whole_each),
       bytes_between_wholes_(kWholeShare * packet_size(shape.nodes.size(), 0)) {}
 
-void Recorder::run_started(const Moment&, const RunStart& start) {
+void Recorder::run_started(const Moment& moment, const RunStart& start) {
+  packets_.begin(moment);
   may_wait_ = !start.real_time;
   // That of a later part gets its own first tick.
   if (options_.rotation.is_wanted())

@@ -73,6 +73,31 @@ TEST_CASE("entries: one that was written between ticks is marked until a line ha
   CHECK(is_set() == std::vector{false});
 }
 
+TEST_CASE("entries: what a tick writes again has the value that came from outside") {
+  WatchedBoard it;
+  EntryChanges changes({0});
+  it.set(0, 0.5);
+  changes.begin(it.board.entries);
+  const auto given = [&](std::optional<double> from_outside, std::optional<double> by_tick) {
+    if (from_outside) it.set(0, *from_outside);
+    changes.before_tick(it.board.entries);
+    if (by_tick) it.set(0, *by_tick);
+    std::string text;
+    for (const EntryChange& change : changes.changes(it.board.entries)) {
+      text += *change.text + (change.is_set ? " set" : "");
+      if (change.is_written_again) text += " given " + *change.given;
+    }
+    changes.keep();
+    return text;
+  };
+  CHECK(given(std::nullopt, std::nullopt) == "0.5");  // the first line has all
+  CHECK(given(0.75, std::nullopt) == "0.75 set");
+  CHECK(given(1.0, 0.25) == "0.25 set given 1");
+  CHECK(given(1.0, 0.25) == "0.25 set given 1");  // a button that the tree puts back
+  CHECK(given(0.25, std::nullopt).empty());
+  CHECK(given(std::nullopt, 0.25).empty());
+}
+
 TEST_CASE("entries: only those that were asked for, numbered in their order") {
   WatchedBoard it;
   EntryChanges changes({1});

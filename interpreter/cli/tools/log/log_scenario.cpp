@@ -22,16 +22,18 @@ struct LogScenarioOptions {
   PluginOptions plugins;
 };
 
+int told_problem(const Problem& why) {
+  print_error(why.message, why.hint);
+  return kExitUsage;
+}
+
 int write_scenario(const LogScenarioOptions& options, const RecordingHeader& header) {
   const RecordedTree recorded(header, options.tree, options.plugins);
   if (recorded.code() != kExitSuccess) return recorded.code();
   const ScenarioTree of{recorded.file(), recorded.main(), header.id};
   const auto tree = options.save.empty() ? Result<std::string>(std::string())
                                          : tree_in_scenario_file(options.save, of);
-  if (!tree) {
-    print_error(tree.error().message, tree.error().hint);
-    return kExitUsage;
-  }
+  if (!tree) return told_problem(tree.error());
   const RecordedWords words = read_recorded_words(options.file, recorded.tree());
   if (const int code = report_end(words.outcome); code != kExitSuccess) return code;
   const std::string name =
@@ -41,11 +43,12 @@ int write_scenario(const LogScenarioOptions& options, const RecordingHeader& hea
   for (const std::string& it : words.notes) print_note(it);
   const std::string text = to_text(
       words, {.name = name, .comments = words.notes, .tree = *tree, .main = recorded.main()});
-  if (options.save.empty()) return write_results(scenario_file(recorded.file(), text));
-  const auto saved = add_to_scenario_file(options.save, of, text);
-  if (saved) return kExitSuccess;
-  print_error(saved.error().message, saved.error().hint);
-  return kExitUsage;
+  if (!options.save.empty()) {
+    const auto saved = add_to_scenario_file(options.save, of, text);
+    return saved ? kExitSuccess : told_problem(saved.error());
+  }
+  const auto file = scenario_file(recorded.file(), text);
+  return file ? write_results(*file) : told_problem(file.error());
 }
 
 int scenario(const LogScenarioOptions& options) {

@@ -61,6 +61,7 @@ export interface TickLine {
   faults?: Fault[];
   entries?: EntryValue[];
   set?: number[];
+  given?: EntryValue[];
   logs?: LogLine[];
   whole?: EntryValue[];
   counts?: NodeCounts[];
