@@ -141,6 +141,7 @@ std::optional<Definition> TreesOfProject::main() {
     check_unused(trees_, *main_, report_);
   }
   if (!finish(definition)) return std::nullopt;
+  if (!options_.is_advised) return definition;
   advise(definition, report_);
   advise_holds(definition, report_);
   advise_resources(definition, report_);

@@ -32,6 +32,7 @@ struct ResolveOptions {
   bool may_lack_main = false;
   bool is_part = false;    // of a file that includes it: its only tree is not the main tree
   TreeIds elsewhere = {};  // trees of files that this one does not include
+  bool is_advised = true;  // false: who asks needs no warnings about a tree that has no error
 };
 
 // The trees of a project, checked once, of which each may then be expanded as the main one.

@@ -79,10 +79,10 @@ std::optional<AttributeText> attribute_text(const Document& document, const Attr
 }
 
 std::optional<std::string_view> indentation(std::string_view text, std::size_t at) {
-  const std::size_t begin = line_begin(text, at);
-  const std::string_view before = text.substr(begin, at - begin);
-  if (before.find_first_not_of(" \t\r") != std::string_view::npos) return std::nullopt;
-  return before;
+  // Only the blanks are read: a whole text may be one line, and each of its elements asks.
+  const std::size_t begin = text.substr(0, at).find_last_not_of(" \t\r") + 1;  // npos + 1 is 0
+  if (begin > 0 && text[begin - 1] != '\n') return std::nullopt;
+  return text.substr(begin, at - begin);
 }
 
 std::size_t line_begin(std::string_view text, std::size_t at) {

@@ -1,29 +1,42 @@
 #include "language/document/byte_range.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "language/document/cursor.h"
 
 namespace lockstep::host {
 namespace {
 
-// The end of what begins at `begin`, at least one character of the line.
+constexpr std::string_view kLineEnds = "\r\n";
+
+bool begins_line_end(std::string_view rest) {
+  return rest.empty() || kLineEnds.find(rest.front()) != kLineEnds.npos;
+}
+
+// The closing quote of a value that begins at `begin`, unless its line ends before.
+std::optional<std::size_t> closing_quote(std::string_view text, std::size_t begin) {
+  const char quote = begin == 0 ? ' ' : text[begin - 1];
+  if (quote != '"' && quote != '\'') return std::nullopt;
+  const char stops[] = {quote, kLineEnds[0], kLineEnds[1]};
+  const auto end = text.find_first_of(std::string_view(stops, sizeof stops), begin);
+  if (end == text.npos || text[end] != quote || end == begin) return std::nullopt;
+  return end;
+}
+
+// The end of what begins at `begin`, at least one character of the line. It reads no further than
+// that, since a whole text may be one line, and each of its messages asks.
 std::size_t end_of(std::string_view text, std::size_t begin) {
   const std::string_view rest = text.substr(begin);
-  const std::string_view line = rest.substr(0, std::min(rest.find_first_of("\r\n"), rest.size()));
-  if (line.empty()) return begin;
-  const char before = begin == 0 ? ' ' : text[begin - 1];
-  if (before == '"' || before == '\'') {
-    const auto quote = line.find(before);
-    if (quote != line.npos && quote > 0) return begin + quote;
-  }
-  const std::size_t sign = line.starts_with("</") ? 2 : line.starts_with('<') ? 1 : 0;
-  Cursor cursor(line);
+  if (begins_line_end(rest)) return begin;
+  if (const auto quote = closing_quote(text, begin)) return *quote;
+  const std::size_t sign = rest.starts_with("</") ? 2 : rest.starts_with('<') ? 1 : 0;
+  Cursor cursor(rest);
   cursor.go_to(sign);
   const std::size_t name = cursor.take_name().size();
   if (sign + name > 0) return begin + sign + name;
   std::size_t length = 1;
-  while (length < line.size() && (static_cast<unsigned char>(line[length]) & 0xC0u) == 0x80)
+  while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0u) == 0x80)
     ++length;
   return begin + length;
 }

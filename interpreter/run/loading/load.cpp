@@ -55,7 +55,7 @@ bool add_team_plugin(PluginSet& plugins, Diagnostics& diagnostics) {
 ResolveOptions resolve_options(const LoadOptions& options) {
   return {options.main_tree,     options.values,       options.later,         options.unknown,
           options.mocks,         options.mock_outputs, options.opens_entries, options.has_outside,
-          options.may_lack_main, options.is_part,      options.elsewhere};
+          options.may_lack_main, options.is_part,      options.elsewhere,     options.is_advised};
 }
 
 tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const LoadOptions& options,

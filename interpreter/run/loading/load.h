@@ -39,6 +39,7 @@ struct LoadOptions {
   bool is_part = false;        // of a file that includes it
   TreeIds elsewhere = {};      // trees of files that this one does not include
   std::shared_ptr<const Library> library = {};  // where SubTrees find those of other files
+  bool is_advised = true;  // false: who asks needs no warnings about a tree that has no error
 };
 
 // A definition without errors, and the objects that it refers to.

@@ -27,6 +27,7 @@ std::vector<std::string> Trial::errors_after(const ProjectEdit& edit) const {
   LoadOptions options = with_project_file(
       question_.file.path, load_options(question_.settings, question_.workspace.texts()),
       of_project_file);
+  options.is_advised = false;  // only errors count, and an editor waits for many trials
   const auto changed = [&](std::uint32_t document) {
     return edit[document].apply(texts_.document(document).source()->text());
   };
