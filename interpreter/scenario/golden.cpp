@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/system/output_file.h"
+#include "base/system/replace_text.h"
 #include "language/document/file.h"
 #include "record/header_line.h"
 #include "record/read/recording_parts.h"
@@ -72,29 +73,28 @@ bool is_recording(const std::string& path) {
   return line && line->starts_with(kHeaderBegin);
 }
 
-}  // namespace
+// A recording with which a run is compared.
+struct Compared {
+  const std::string& file;
+  std::string label;  // in the lines that differ: "golden.jsonl"
+  std::string name;   // in messages: "'golden.jsonl'"
+};
 
-void Golden::compare(std::vector<Surprise>& surprises) const {
-  const std::string& golden = expected.texts[0];
-  // The writer of a pipe is not waited for.
-  if (std::error_code none; fs::exists(golden, none) && !fs::is_regular_file(golden, none)) {
-    surprises.push_back(
-        {expected.place, fmt::format("'{}' is not a regular file", golden), {"name a recording"}});
-    return;
-  }
+void compare_run(const Golden& run_of, const Compared& with, std::vector<Surprise>& surprises) {
+  const Expectation& expected = run_of.expected;
   const BriefRecording brief;
-  ScenarioRunOptions again = options;
+  ScenarioRunOptions again = run_of.options;
   again.record = brief.path();
-  const ScenarioResult result = runner.run(again);
-  NamedRecording golden_file(golden);
+  static_cast<void>(run_of.runner.run(again));
+  NamedRecording golden_file(with.file);
   std::ifstream this_file(brief.path());
   if (!golden_file.is_open()) {
     surprises.push_back({expected.place,
-                         fmt::format("'{}' cannot be read", golden),
+                         fmt::format("{} cannot be read", with.name),
                          {"lockstep test --update writes it"}});
     return;
   }
-  RecordingReader expected_run(golden_file.text(), golden), run(this_file, "this run");
+  RecordingReader expected_run(golden_file.text(), with.file), run(this_file, "this run");
   // The ticks of a run on the wall clock were as late as they were: a run repeats the others.
   const bool is_of_wall = expected_run.error().empty() && expected_run.header().clock == "wall";
   RecordingDiff diff = host::compare(expected_run, run,
@@ -107,31 +107,77 @@ void Golden::compare(std::vector<Surprise>& surprises) const {
     const std::string& error = expected_run.error().empty() ? run.error() : expected_run.error();
     surprises.push_back({expected.place, error, {}});
   } else if (!diff.same()) {
-    surprises.push_back({expected.place, fmt::format("the run is not that of '{}'", golden),
-                         first_lines(to_text(diff, golden, "this run", false))});
+    const std::string text = to_text(diff, with.label, "this run", false);
+    surprises.push_back(
+        {expected.place, fmt::format("the run is not that of {}", with.name), first_lines(text)});
   }
 }
 
-bool Golden::update(std::vector<Surprise>& surprises) const {
+// What people keep is replaced as it is: its owner, its mode, its other names.
+Result<void> write_golden(const std::string& path, const std::string& from) {
+  constexpr std::size_t kMost = std::size_t{4} << 30u;
+  std::error_code error;  // what is wrong, the writer says
+  fs::create_directories(fs::path(path).parent_path(), error);
+  const auto bytes = read_file(from, kMost);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (!fs::exists(path, error)) return write_output(path, *bytes);
+  const auto before = read_file(path, kMost);
+  if (!before) return tl::unexpected(before.error());
+  return replace_text(path, *before, *bytes);
+}
+
+}  // namespace
+
+void Golden::compare(std::vector<Surprise>& surprises) const {
+  const std::string& golden = expected.texts[0];
+  // The writer of a pipe is not waited for.
+  if (std::error_code none; fs::exists(golden, none) && !fs::is_regular_file(golden, none)) {
+    surprises.push_back(
+        {expected.place, fmt::format("'{}' is not a regular file", golden), {"name a recording"}});
+    return;
+  }
+  compare_run(*this, {golden, golden, fmt::format("'{}'", golden)}, surprises);
+}
+
+bool GoldenUpdate::is_that_of_all() const {
+  ScenarioRunOptions options = first_;
   std::vector<Surprise> differences;
-  compare(differences);
-  if (differences.empty()) return false;
+  for (std::uint64_t run = 0; run < runs_ && differences.empty(); ++run, ++options.seed)
+    Golden{runner_, expected_, options}.compare(differences);
+  return differences.empty();
+}
+
+bool GoldenUpdate::is_same_in_all(const std::string& first, std::vector<Surprise>& surprises,
+                                  std::uint64_t& seed) const {
+  ScenarioRunOptions options = first_;
+  for (std::uint64_t run = 1; run < runs_ && surprises.empty(); ++run) {
+    seed = ++options.seed;
+    compare_run({runner_, expected_, options}, {first, "run 1", "run 1"}, surprises);
+  }
+  if (surprises.empty()) return true;
+  surprises.back().message += fmt::format(
+      ": --update does not write '{}', which is the recording of several runs", expected_.texts[0]);
+  return false;
+}
+
+bool GoldenUpdate::run(std::vector<Surprise>& surprises, std::uint64_t& seed) const {
+  if (is_that_of_all()) return false;
   // All of it, before it takes the place of another one.
-  const std::string path = without_links(expected.texts[0]);
+  const std::string path = without_links(expected_.texts[0]);
   const BriefRecording brief;
-  ScenarioRunOptions again = options;
+  ScenarioRunOptions again = first_;
   again.record = brief.path(path.ends_with(".zst") ? ".jsonl.zst" : ".jsonl");
-  std::string problem = runner.run(again).problem;
+  const ScenarioResult first = runner_.run(again);
+  if (first.end.reason == StopReason::Signal) return false;
+  seed = first_.seed;
+  std::string problem = first.problem;
   if (problem.empty()) {
-    std::error_code error;  // what is wrong, the writer says
-    fs::create_directories(fs::path(path).parent_path(), error);
-    const auto bytes = read_file(again.record, std::size_t{4} << 30u);
-    const Result<void> written =
-        bytes ? write_output(path, *bytes) : Result<void>(tl::unexpected(bytes.error()));
+    if (!is_same_in_all(again.record, surprises, seed)) return false;
+    const Result<void> written = write_golden(path, again.record);
     if (written) return true;
     problem = written.error().message;
   }
-  surprises.push_back({expected.place, problem, {}});
+  surprises.push_back({expected_.place, problem, {}});
   return false;
 }
 
@@ -160,6 +206,8 @@ void GoldenFiles::check(const ScenarioFile& file, const Scenario& scenario,
     };
     if (!is_below(folder, path)) {
       refuse("it is not below the folder of the scenario file", "name a recording in that folder");
+    } else if (path.ends_with(".mcap") || path.ends_with(".mcap.zst")) {
+      refuse("a run is not compared with an MCAP file", "name it FILE.jsonl or FILE.jsonl.zst");
     } else if (fs::exists(path) && !(fs::is_regular_file(path) && is_recording(path))) {
       refuse("it is not a recording", "name another file, or remove this one");
     } else if (users_.at(path).size() > 1) {

@@ -1,6 +1,7 @@
 // same-as="run.jsonl": the run as it was once, from the first tick to the last.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -18,8 +19,31 @@ struct Golden {
 
   // Adds what differs.
   void compare(std::vector<Surprise>& surprises) const;
-  // Writes it again if it differs. True: it was written.
-  bool update(std::vector<Surprise>& surprises) const;
+};
+
+// What `lockstep test --update` does with the recording of an expectation, for all runs of a
+// scenario, which are as expected otherwise.
+class GoldenUpdate {
+ public:
+  // `first` is of the first run; each of the others has the next seed. All must outlive this.
+  GoldenUpdate(const ScenarioRunner& runner, const Expectation& expected,
+               const ScenarioRunOptions& first, std::uint64_t runs)
+      : runner_(runner), expected_(expected), first_(first), runs_(runs) {}
+
+  // Writes the first run if any differs from the recording, and all are the same. Else they cannot
+  // share it: then nothing is written, and `surprises` and `seed` are of the run that differs from
+  // the first one. True: it was written.
+  bool run(std::vector<Surprise>& surprises, std::uint64_t& seed) const;
+
+ private:
+  bool is_that_of_all() const;
+  bool is_same_in_all(const std::string& first, std::vector<Surprise>& surprises,
+                      std::uint64_t& seed) const;
+
+  const ScenarioRunner& runner_;
+  const Expectation& expected_;
+  const ScenarioRunOptions& first_;
+  std::uint64_t runs_;
 };
 
 // Which recordings `lockstep test --update` may write: those below the folder of the scenario file,

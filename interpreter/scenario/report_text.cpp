@@ -90,7 +90,8 @@ std::string to_text(const ScenarioReport& report, std::size_t width, bool color,
     }
   }
   if (has_failed && it.runs > 1) {
-    text += fmt::format("        run {}, seed {}\n", it.runs, it.seed);
+    const std::uint64_t run = 1 + it.seed - report.scenario->seed;  // each has the next seed
+    text += fmt::format("        run {}, seed {}\n", run, it.seed);
   }
   if (!it.replay.empty()) text += fmt::format("        {}\n", it.replay);
   if (has_failed) text += fmt::format("        {}\n", it.again);

@@ -84,16 +84,14 @@ void ScenarioWorker::compare_to_golden(const ScenarioRunner& runner,
   }
 }
 
-// All runs are as expected otherwise: the first one is written, and the others are to be the same.
+// All runs are as expected otherwise.
 void ScenarioWorker::update_golden(const ScenarioRunner& runner, ScenarioReport& report) const {
-  ScenarioRunOptions options{.seed = report.scenario->seed, .stop_signal = options_.stop_signal};
+  const ScenarioRunOptions first{.seed = report.scenario->seed,
+                                 .stop_signal = options_.stop_signal};
   for (const Expectation& it : report.scenario->expectations) {
-    if (it.kind == Expectation::Kind::SameAs)
-      report.written += Golden{runner, it, options}.update(report.surprises) ? 1 : 0;
-  }
-  for (std::uint64_t run = 1; run < report.runs && report.surprises.empty(); ++run) {
-    report.seed = ++options.seed;
-    compare_to_golden(runner, options, report);
+    if (it.kind != Expectation::Kind::SameAs || !report.surprises.empty()) continue;
+    const GoldenUpdate update(runner, it, first, report.runs);
+    if (update.run(report.surprises, report.seed)) ++report.written;
   }
 }
 

@@ -639,6 +639,64 @@ TEST_CASE("test --update does not write the recording of a scenario that fails o
   CHECK(good.test().code == 0);
 }
 
+TEST_CASE("test --update does not write a recording that differing runs would share") {
+  const Folder folder(R"(<scenario name="a" runs="5"><expect same-as="gold.jsonl"/></scenario>)");
+  // A leaf that takes as many ticks as the seed chooses.
+  folder.directory().file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="M">
+    <Action ID="Go" name="g"/></BehaviorTree></root>)");
+  folder.directory().file(
+      "m.leaves.xml", R"(<leaves lockstep="1" rate="10"><leaf of="Go" ticks="1..9"/></leaves>)");
+  folder.directory().file("t.test.xml",
+                          R"(<scenarios lockstep="1" tree="t.xml" leaves="m.leaves.xml" rate="10">
+    <scenario name="a" runs="5"><expect same-as="gold.jsonl"/></scenario></scenarios>)");
+  const auto lines = [&](const Outcome& it) {
+    INFO(it.out << it.err);
+    CHECK(it.code == 1);
+    CHECK(contains(it.out, "run 2, seed 1\n"));
+    return it.out;
+  };
+  const std::string text = lines(folder.test({"--update"}));
+  CHECK(contains(text, "the run is not that of run 1: --update does not write '"));
+  CHECK(contains(text, "gold.jsonl', which is the recording of several runs"));
+  CHECK(!contains(text, "written"));
+  CHECK(!std::filesystem::exists(folder.path("gold.jsonl")));
+  // Nor over that of one run.
+  CHECK(
+      run_lockstep({"run", folder.path("t.xml"), "--rate", "10", "--clock", "virtual", "--view",
+                    "none", "--mock-leaf", "Go=success:0.4", "--record", folder.path("gold.jsonl")})
+          .code == 0);
+  const std::string before = read_file(folder.path("gold.jsonl"));
+  lines(folder.test({"--update"}));
+  CHECK(read_file(folder.path("gold.jsonl")) == before);
+}
+
+TEST_CASE("test --update keeps the other names of a recording, and its format") {
+  const auto scenarios_with = [](const std::string& file, const std::string& does) {
+    return scenarios("<scenario name=\"a\"><leaf path=\"left\" does=\"" + does +
+                     "\"/><expect same-as=\"" + file + "\"/></scenario>");
+  };
+  const Folder folder("");
+  const auto update = [&](const std::string& file, const std::string& does) {
+    folder.directory().file("t.test.xml", scenarios_with(file, does));
+    return folder.test({"--update"});
+  };
+  for (const std::string file : {"gold.jsonl", "gold.jsonl.zst"}) {
+    CHECK(update(file, "R S").code == 0);
+    std::filesystem::create_hard_link(folder.path(file), folder.path(file + ".other"));
+    const std::string before = read_file(folder.path(file));
+    CHECK(before.starts_with(file.ends_with(".zst") ? "\x28\xB5\x2F\xFD" : "{\"lockstep"));
+    CHECK(update(file, "R R S").code == 0);
+    CHECK(read_file(folder.path(file)) != before);
+    CHECK(std::filesystem::equivalent(folder.path(file), folder.path(file + ".other")));
+  }
+  for (const std::string file : {"gold.mcap", "gold.mcap.zst"}) {
+    const Outcome it = update(file, "R S");
+    CHECK(it.code == 3);
+    CHECK(contains(it.out, "a run is not compared with an MCAP file"));
+    CHECK(!std::filesystem::exists(folder.path(file)));
+  }
+}
+
 TEST_CASE("a recording becomes a scenario that repeats it") {
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
   const TemporaryDirectory directory;
