@@ -78,6 +78,7 @@ class ScenarioBinder {
     if (file != nullptr && file->rate && !scenario_.is_rate_given) bound_.rate = *file->rate;
     bound_.bindings =
         bind_leaves(scenario_, tree_, fixture_.definition(), file != nullptr, missing_, report_);
+    bound_.bindings.scripts.rate = bound_.rate;  // leaves with a time count its ticks
     for (const SetEntry& it : scenario_.changes) add_change(it);
     for (const AnswerEvent& it : scenario_.answers) add_answer(it);
     if (file != nullptr) add_models(*file);

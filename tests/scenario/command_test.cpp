@@ -639,6 +639,30 @@ TEST_CASE("test --update does not write the recording of a scenario that fails o
   CHECK(good.test().code == 0);
 }
 
+TEST_CASE("a leaf with seconds has the progress of a Wait in each tick, at any rate") {
+  // Its seconds begin at a deadline that is rounded: tick 6 of 30 Hz.
+  const std::string tree = R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence memory="true">
+    <Wait name="first" seconds="0.15"/>
+    <ParallelAbsolute name="p" barriers="0.25;0.5;0.75"><Wait name="slow" seconds="0.5"/>
+      <Action ID="Go" name="a"/><Wait name="w" seconds="0.2"/></ParallelAbsolute>
+    </Sequence></BehaviorTree></root>)";
+  for (const std::string rate : {"30", "60", "7", "100"}) {
+    const Folder folder(R"(<leaf path="a" result="success" seconds="0.2"/>
+      <scenario name="a" rate=")" +
+                            rate + R"("><expect>never a.held and not w.held</expect>
+      <expect>never w.held and not a.held</expect><expect same-as="gold.jsonl"/></scenario>)",
+                        tree);
+    const std::string gold = folder.path("gold.jsonl");
+    const std::string file = folder.path("t.xml");
+    CHECK(run_lockstep({"run", file, "--rate", rate, "--clock", "virtual", "--view", "none",
+                        "--mock-leaf", "Go=success:0.2", "--record", gold})
+              .code == 0);
+    const Outcome it = folder.test();
+    INFO(rate << ": " << it.out << it.err);
+    CHECK(it.code == 0);
+  }
+}
+
 TEST_CASE("test --update does not write a recording that differing runs would share") {
   const Folder folder(R"(<scenario name="a" runs="5"><expect same-as="gold.jsonl"/></scenario>)");
   // A leaf that takes as many ticks as the seed chooses.

@@ -1,7 +1,6 @@
 // The stand-ins for nodes that no plugin has: an action and a condition return what they are given
 // (NodeType::mock), a control node is a sequence, a decorator passes on.
-#include <algorithm>
-
+#include "base/core/time_progress.h"
 #include "engine/node_ports.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
@@ -35,22 +34,24 @@ Status result_of(NodeContext& context, NodeIndex self) {
   return mock.result;
 }
 
+Nanoseconds time_of_mock(const NodeContext& context, NodeIndex self) {
+  return from_seconds(mock_of(context, self).seconds);
+}
+
 Status tick_mock_action(NodeContext& context, NodeIndex self) {
   timed::count(context, self);
   const Nanoseconds counted = context.passed(context.state<timed::State>(self).start);
-  const bool is_over = counted >= from_seconds(mock_of(context, self).seconds);
-  return is_over ? result_of(context, self) : Status::Running;
+  return counted >= time_of_mock(context, self) ? result_of(context, self) : Status::Running;
 }
 
 void fold_mock_action(NodeContext& context, NodeIndex self) {
   fold::dead_when_idle(context, self);
   if (context.status(self) != Status::Running) return;
-  timed::count_from_now(context, self, true, from_seconds(mock_of(context, self).seconds));
+  timed::count_from_now(context, self, true, time_of_mock(context, self));
 }
 
 double action_progress(NodeContext& context, NodeIndex self) {
-  const double seconds = mock_of(context, self).seconds;
-  return seconds > 0 ? std::min(1.0, to_seconds(timed::counted(context, self)) / seconds) : 1.0;
+  return progress_of_time(timed::counted(context, self), time_of_mock(context, self));
 }
 
 Status tick_mock_condition(NodeContext& context, NodeIndex self) {

@@ -1,5 +1,4 @@
-#include <algorithm>
-
+#include "base/core/time_progress.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/timed.h"
 
@@ -22,8 +21,7 @@ Status tick_wait(NodeContext& context, NodeIndex self) {
 
 template <bool kObeys>
 double progress_of_wait(NodeContext& context, NodeIndex self) {
-  return std::min(
-      1.0, to_seconds(timed::counted<kObeys>(context, self)) / to_seconds(duration(context, self)));
+  return progress_of_time(timed::counted<kObeys>(context, self), duration(context, self));
 }
 
 extern const NodeKind kObeyingWait;

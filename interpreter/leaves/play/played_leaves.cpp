@@ -7,7 +7,9 @@
 #include <map>
 #include <utility>
 
+#include "base/core/deadlines.h"
 #include "base/core/suggest.h"
+#include "base/core/time_progress.h"
 #include "base/core/wording.h"
 #include "leaves/model_leaf.h"
 #include "leaves/plugin/contract/entry_value.h"
@@ -23,8 +25,13 @@ class PlayedLeaf final : public RemoteLeaf {
  public:
   // Null: it has no words. Zero: the first word is due at once.
   PlayedLeaf(const lockstep_caller& caller, const std::vector<LeafWord>* words, bool restarts,
-             Nanoseconds time, PlayedLeafWatch* watch)
-      : RemoteLeaf(caller), words_(words), restarts_(restarts), time_(time), watch_(watch) {}
+             Nanoseconds time, const Deadlines& deadlines, PlayedLeafWatch* watch)
+      : RemoteLeaf(caller),
+        words_(words),
+        restarts_(restarts),
+        time_(time),
+        deadlines_(deadlines),
+        watch_(watch) {}
 
   void start() override {
     if (watch_ != nullptr) watch_->begins(caller_);
@@ -77,7 +84,7 @@ class PlayedLeaf final : public RemoteLeaf {
   }
   // While it is held it may drift, by a word in each tick.
   double progress() override {
-    if (time_.count() > 0) return std::min(1.0, to_seconds(passed()) / to_seconds(time_));
+    if (time_.count() > 0) return progress_of_time(passed(), time_);
     const std::size_t count = is_held_ ? held_words() : 0;
     return count == 0 ? progress_ : (*words_)[at_ + count - 1].progress;
   }
@@ -96,8 +103,10 @@ class PlayedLeaf final : public RemoteLeaf {
     return words_ == nullptr || words_->empty() ? nullptr : &(*words_)[at_];
   }
 
-  // Since it began, without what it was held.
-  Nanoseconds passed() const { return (is_held_ ? held_since_ : caller_.time->now) - began_; }
+  // Since it began, without what it was held: as many periods as a Wait counts.
+  Nanoseconds passed() const {
+    return deadlines_.between(began_, is_held_ ? held_since_ : caller_.time->now);
+  }
 
   // So many of the words for held ticks have come.
   std::size_t held_words() const {
@@ -131,6 +140,7 @@ class PlayedLeaf final : public RemoteLeaf {
   const std::vector<LeafWord>* const words_;
   const bool restarts_;  // with its first word, in each activation
   const Nanoseconds time_;
+  const Deadlines deadlines_;
   PlayedLeafWatch* const watch_;
   std::size_t at_ = 0;  // the next word
   double progress_ = 0;
@@ -145,9 +155,10 @@ std::unique_ptr<PlayedLeaf> find_script(const LeafScripts& scripts, const lockst
   const auto words = scripts.leaves.find(caller.run->tree->path(caller.node));
   if (words == scripts.leaves.end()) return nullptr;
   const auto time = scripts.times.find(words->first);
-  return std::make_unique<PlayedLeaf>(
-      caller, &words->second, scripts.restarting.contains(words->first),
-      time == scripts.times.end() ? Nanoseconds(0) : time->second, watch);
+  return std::make_unique<PlayedLeaf>(caller, &words->second,
+                                      scripts.restarting.contains(words->first),
+                                      time == scripts.times.end() ? Nanoseconds(0) : time->second,
+                                      scripts.rate ? Deadlines(*scripts.rate) : Deadlines(), watch);
 }
 
 class PlayedRun final : public RemoteRun {
@@ -157,9 +168,9 @@ class PlayedRun final : public RemoteRun {
 
   std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override {
     auto leaf = find_script(scripts_, caller, watch_);
-    return leaf != nullptr
-               ? std::move(leaf)
-               : std::make_unique<PlayedLeaf>(caller, nullptr, false, Nanoseconds(0), watch_);
+    return leaf != nullptr ? std::move(leaf)
+                           : std::make_unique<PlayedLeaf>(caller, nullptr, false, Nanoseconds(0),
+                                                          Deadlines(), watch_);
   }
 
  private:

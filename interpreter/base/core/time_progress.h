@@ -1,0 +1,16 @@
+// The progress of what takes a time: a Wait, a mock, the leaf of a scenario that has a time.
+#pragma once
+
+#include <algorithm>
+
+#include "base/core/clock.h"
+
+namespace lockstep::host {
+
+// 1 when all of the time has passed, and of what takes none. Two that began in the same tick and
+// take the same time have the same progress in each tick.
+inline double progress_of_time(Nanoseconds passed, Nanoseconds all) {
+  return all.count() > 0 ? std::min(1.0, to_seconds(passed) / to_seconds(all)) : 1.0;
+}
+
+}  // namespace lockstep::host
