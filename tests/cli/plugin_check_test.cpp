@@ -172,6 +172,47 @@ for line in sys.stdin:
   }
 }
 
+TEST_CASE("plugin check: ports that a program may not describe are named") {
+  const TemporaryDirectory directory;
+  const std::string program = directory.file("area.py", R"(#!/usr/bin/python3
+import json, os, sys
+print(json.dumps(dict(lockstep=1, leaves=[{"id": "Shape", "more_ports": ["size.*"], "ports": [
+    {"name": "kind", "type": "string", "fixed": True, "choices": ["round"]}]}])), flush=True)
+for line in sys.stdin:
+    request = json.loads(line)
+    if request["do"] == "describe":
+        answers = open(os.path.dirname(sys.argv[0]) + "/answers").read().splitlines()
+        n = globals().get("n", -1) + 1
+        print(answers[n % len(answers)], flush=True)
+    elif request["do"] == "tick":
+        print(json.dumps(dict(leaf=request["leaf"], status="success")), flush=True)
+    elif request["do"] in ("create", "halt"):
+        print(json.dumps(dict(leaf=request["leaf"], done=True)), flush=True)
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string radius = R"({"ports":[{"name":"size.r","type":"double"}]})",
+                    width = R"({"ports":[{"name":"size.w","type":"double"}]})";
+  const std::tuple<std::string, std::string, int> rows[] = {
+      {radius, "ok    'Shape' with kind=\"round\" has 2 ports", 0},
+      {R"({"ports":[{"name":"radius","type":"double"}]})",
+       "wrong 'Shape' with kind=\"round\" has the port 'radius', which no pattern of more_ports",
+       4},
+      {radius + '\n' + width,
+       "wrong 'Shape' with kind=\"round\" has other ports when it is described again: ", 4},
+      {R"({"ports":[{"name":"size.r","type":"int"},{"name":"size.r","type":"int"}]})",
+       "plugin 'area' is malformed: what it describes for 'Shape' ('Shape'): port 2 is named", 4},
+      {R"({"ports":[{"name":"size.a","type":"number","direction":"output"}]})",
+       "port 1 ('size.a') is an output of type number", 4}};
+  for (const auto& [answers, message, code] : rows) {
+    directory.file("answers", answers);
+    const Outcome checked = check_plugin(program);
+    INFO(answers << '\n' << checked.out << checked.err);
+    CHECK(checked.code == code);
+    CHECK(contains(checked.out, message));
+    CHECK(!contains(checked.out, "LOCKSTEP_"));
+  }
+}
+
 TEST_CASE("plugin check: what is no plugin, and an option for programs") {
   CHECK(contains(check_plugin("/nowhere/x.so").err, "there is no file '/nowhere/x.so'"));
   CHECK(check_plugin("/nowhere/x.so").code == 2);

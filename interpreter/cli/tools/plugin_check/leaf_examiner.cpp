@@ -448,6 +448,11 @@ void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugin
   for (const ElementTexts& constants : sample_elements(type)) {
     const auto described = type.element_types->type_of(fixed_texts(constants));
     if (described) {
+      if (const auto port = port_without_pattern(type, **described); !port.empty())
+        report.note(false,
+                    fmt::format("'{}' with {}: has the port '{}', which no pattern of more_ports "
+                                "allows",
+                                type.id, to_text(constants), port));
       Examiner(**described, constants, plugins, report).examine();
     } else if (is_breach(described.error())) {
       const Problem& why = described.error().why;

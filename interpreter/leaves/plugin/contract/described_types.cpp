@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -133,6 +134,15 @@ bool is_breach(const ElementRefusal& refusal) {
   const std::string_view message = refusal.why.message;
   return (message.starts_with("plugin '") && message.find(kMalformed) != message.npos) ||
          message.find(kUndescribed) != message.npos;
+}
+
+std::string_view port_without_pattern(const NodeType& type, const NodeType& described) {
+  for (const Parameter& it : described.parameters) {
+    const bool is_own =
+        std::ranges::find(type.parameters, it.name, &Parameter::name) != type.parameters.end();
+    if (!is_own && !matches_any(type.more_parameters, it.name)) return it.name;
+  }
+  return {};
 }
 
 std::unique_ptr<const ElementTypes> described_types(const HostedPlugin& plugin,

@@ -20,6 +20,10 @@ class LeafDescriber {
 // Whether a refusal says that the plugin breaks the contract, not what is wrong with an element.
 bool is_breach(const ElementRefusal& refusal);
 
+// A port of an element that `type`, which describes it, has neither itself nor a pattern for; "":
+// none. The contract forbids it, and no tree can bind it by an attribute.
+std::string_view port_without_pattern(const NodeType& type, const NodeType& described);
+
 // The types of the elements of `leaf`. It and `plugin` outlive the result.
 std::unique_ptr<const ElementTypes> described_types(const HostedPlugin& plugin,
                                                     const Descriptors::Leaf& leaf);

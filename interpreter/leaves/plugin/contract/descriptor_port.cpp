@@ -59,7 +59,7 @@ std::optional<Problem> check_fixed(const lockstep_port& port) {
                          (port.flags & LOCKSTEP_DEFAULT_ENTRY) != 0;
   if (!has_entry) return std::nullopt;
   return Problem{fmt::format("('{}') is fixed, but is not an input with a constant", port.name),
-                 "LOCKSTEP_FIXED is for inputs that are not objects and have no default entry"};
+                 "a fixed port is an input that is not an object and has no default entry"};
 }
 
 bool has_default_entry(const lockstep_port& port) {
@@ -156,7 +156,7 @@ std::optional<Problem> check(const lockstep_port& port, std::span<const Paramete
                    "use LOCKSTEP_INPUT, LOCKSTEP_OUTPUT or LOCKSTEP_INOUT, 1 to 3"};
   }
   if (type == ValueType::Number && port.direction != LOCKSTEP_INPUT) {
-    return Problem{fmt::format("('{}') is an output of type LOCKSTEP_NUMBER", port.name),
+    return Problem{fmt::format("('{}') is an output of type number", port.name),
                    "an output is an int or a double, so that others know what they read"};
   }
   if (auto refusal = check_fixed(port)) return refusal;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <memory>
+#include <span>
 
 #include "base/core/element_types.h"
 #include "base/core/parameter_value.h"
@@ -139,7 +141,7 @@ class Examiner {
     if (!line) return refuse("it ", line.error());
     const Nanoseconds took = monotonic_now() - started;
     result_.first_line = *line;
-    auto hello = Hello::read(*line, "program", Hold::AsItSays);
+    auto hello = Hello::read(*line, plugin_name(), Hold::AsItSays);
     if (!hello) return refuse("it ", hello.error());
     hello_ = std::move(*hello);
     if (const auto refusal = read_descriptors(hello_->plugin(), 0, descriptors_)) {
@@ -152,6 +154,12 @@ class Examiner {
     return note(!ids.empty(),
                 fmt::format("reports after {} ms that it has {}", took.count() / 1'000'000,
                             ids.empty() ? "no leaves" : listed(ids)));
+  }
+
+  // The one that `run --plugin` gives to the file.
+  std::string plugin_name() const {
+    std::string name = std::filesystem::path(path_).stem().string();
+    return is_plugin_name(name) ? name : "program";
   }
 
   // Notes that a leaf has done something, if it was not blamed.
@@ -177,14 +185,38 @@ class Examiner {
   void describe_elements(const NodeType& type, std::vector<Tried>& all) {
     for (const ElementTexts& constants : sample_elements(type)) {
       const auto described = type.element_types->type_of(fixed_texts(constants));
-      if (described) all.push_back({*described, constants});
-      const bool is_good = described || !is_breach(described.error());
-      note(is_good && !conversation_.is_gone(),
-           fmt::format("'{}' with {} {}", type.id, to_text(constants),
-                       described
-                           ? fmt::format("has {}", counted((*described)->parameters.size(), "port"))
-                           : "is not tried: " + described.error().why.message));
+      const std::string who = fmt::format("'{}' with {} ", type.id, to_text(constants));
+      if (!described) {
+        note(!is_breach(described.error()) && !conversation_.is_gone(),
+             who + "is not tried: " + described.error().why.message);
+        continue;
+      }
+      all.push_back({*described, constants});
+      const std::string wrong = breach_of(type, **described, constants);
+      note(wrong.empty() && !conversation_.is_gone(),
+           who +
+               (wrong.empty() ? "has " + counted((*described)->parameters.size(), "port") : wrong));
     }
+  }
+
+  // What is wrong with the ports that an element was described with; "": nothing.
+  std::string breach_of(const NodeType& type, const NodeType& described,
+                        const ElementTexts& constants) {
+    if (const auto port = port_without_pattern(type, described); !port.empty())
+      return fmt::format("has the port '{}', which no pattern of more_ports allows", port);
+    const auto again = describer_.describe(type.id, fixed_texts(constants));
+    if (!again) return "is not described twice: " + again.error().why.message;
+    if (ports_of(**again) == ports_of(*described.leaf)) return {};
+    return "has other ports when it is described again: the same constants give the same ports";
+  }
+
+  // What a tree sees of them, in the order of their names.
+  static std::vector<std::string> ports_of(const lockstep_leaf_type& type) {
+    std::vector<std::string> ports;
+    for (const lockstep_port* const it : std::span(type.ports, type.port_count))
+      ports.push_back(fmt::format("{} {} {} {}", it->name, it->type, it->direction, it->flags));
+    std::ranges::sort(ports);
+    return ports;
   }
 
   bool examine_leaf(const Tried& tried) {
