@@ -39,6 +39,7 @@ constexpr int kOurExit = 0x6c730000;
 std::atomic<int> g_our_status{kOurExit - 1};
 
 std::atomic<pid_t> g_reporter{0};  // the thread that writes the report
+WayToEnd g_end;                    // behind the report, written by that thread
 
 // The report that hang() passes to the hanging thread. Written before the flag.
 pthread_t g_hung_thread;
@@ -62,17 +63,24 @@ Registers registers_of(const void* context) {
 #endif
 }
 
+// By the signal, as the process would have ended without a report; or with our exit code.
+WayToEnd end_by(int signal) {
+  return {g_exit_code, g_exit_code == CrashReport::kAsWithoutReport ? signal : 0};
+}
+
 // The first thread that crashes reports, others wait for its end. A crash of the report itself ends
-// the process at once, and so does a report that gets stuck.
-void begin_report() {
+// the process at once, as the backtrace of a jump to a wild address does; and so does a report that
+// gets stuck.
+void begin_report(int signal = 0) {
   const auto thread = static_cast<pid_t>(syscall(SYS_gettid));
   pid_t reporter = 0;
   if (!g_reporter.compare_exchange_strong(reporter, thread)) {
-    if (reporter == thread) end_at_once(g_exit_code);
+    if (reporter == thread) end_at_once(g_end);
     while (true) pause();
   }
+  g_end = end_by(signal);
   unblock(signal_set(kFatalSignals));
-  light_fuse(kLongestReport, g_exit_code);
+  light_fuse(kLongestReport, g_end);
   messages().flush(kBeforeReport);  // earlier messages
 }
 
@@ -102,11 +110,7 @@ enum class Backtrace : bool { No, Yes };
   write_now(STDERR_FILENO, text.text());
   if (const auto last_words = g_crash_words.load()) last_words();
   if (wanted == Backtrace::Yes) write_backtrace(instruction);
-  if (g_exit_code == CrashReport::kAsWithoutReport && crash.kind == CrashKind::Signal) {
-    signal(crash.signal, SIG_DFL);
-    raise(crash.signal);
-  }
-  end_at_once(g_exit_code);
+  end_at_once(g_end);
 }
 
 Crash crash_here(CrashKind kind) {
@@ -140,11 +144,11 @@ void on_fatal_signal(int number, siginfo_t* info, void* context) {
     raise(number);
     return;
   }
-  begin_report();
+  const bool is_hang =
+      number == SIGABRT && g_is_hung && pthread_equal(pthread_self(), g_hung_thread) != 0;
+  begin_report(is_hang ? 0 : number);
   const Registers registers = registers_of(context);
-  if (number == SIGABRT && g_is_hung && pthread_equal(pthread_self(), g_hung_thread) != 0) {
-    report(g_hang, Backtrace::Yes, registers.instruction);
-  }
+  if (is_hang) report(g_hang, Backtrace::Yes, registers.instruction);
   report(crash_of(number, *info, registers), Backtrace::Yes, registers.instruction);
 }
 

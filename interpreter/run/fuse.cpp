@@ -8,14 +8,14 @@
 namespace lockstep::host {
 namespace {
 
-volatile sig_atomic_t g_fuse_code = 0;
+WayToEnd g_fuse_end;
 
 }  // namespace
 
-void light_fuse(unsigned seconds, int exit_code) {
-  g_fuse_code = exit_code;
+void light_fuse(unsigned seconds, WayToEnd end) {
+  g_fuse_end = end;
   struct sigaction action {};
-  action.sa_handler = [](int) { end_at_once(g_fuse_code); };
+  action.sa_handler = [](int) { end_at_once(g_fuse_end); };
   sigaction(SIGALRM, &action, nullptr);
   unblock(signal_set({SIGALRM}));
   alarm(seconds);
@@ -23,6 +23,15 @@ void light_fuse(unsigned seconds, int exit_code) {
 
 void end_at_once(int exit_code) {
   while (true) syscall(SYS_exit_group, exit_code);
+}
+
+void end_at_once(WayToEnd end) {
+  if (end.signal != 0) {
+    signal(end.signal, SIG_DFL);
+    unblock(signal_set({end.signal}));
+    raise(end.signal);
+  }
+  end_at_once(end.exit_code);
 }
 
 }  // namespace lockstep::host

@@ -44,7 +44,7 @@ void on_signal(int number) {
   if (g_received.compare_exchange_strong(none, number)) return;
   const bool is_echo = number == g_received && now - g_time.load() < kEcho;
   if (is_echo || !is_of_people(number)) return;
-  light_fuse(1, 128 + number);
+  light_fuse(1, {.exit_code = 128 + number});
   if (g_last_words != nullptr) g_last_words();
   end_at_once(128 + number);
 }

@@ -153,6 +153,10 @@ void Leaf::misbehave(const std::string& how) {
   if (how == "terminate") std::terminate();
   if (how == "terminate without memory") take_all_memory();
   if (how == "segv") *reinterpret_cast<volatile int*>(8) = 1;  // NOLINT
+  if (how == "wild jump") {
+    void (*volatile wild)() = reinterpret_cast<void (*)()>(16);  // NOLINT
+    wild();
+  }
   if (how == "segv in a thread") std::thread([] { std::raise(SIGSEGV); }).join();
   if (how == "fpe") divide_by_zero();
   if (how == "overflow") overflow(0);

@@ -178,6 +178,8 @@ TEST_CASE("a leaf that crashes brings down its own process only") {
   for (const std::string where : {"create", "start", "tick", "progress"}) {
     if (where != "create") check_crash({"segv", where}, "SIGSEGV", "killed by SIGSEGV");
   }
+  // The backtrace reads the code there, and crashes itself.
+  check_crash({"wild jump"}, "SIGSEGV", "killed by SIGSEGV");
   check_crash({"fpe"}, "SIGFPE", "killed by SIGFPE");
   check_crash({"abort"}, "SIGABRT", "killed by SIGABRT");
   check_crash({"terminate"}, "SIGABRT", "killed by SIGABRT");
