@@ -38,6 +38,21 @@ void check_asking(const std::string& scenario, const std::string& message = {}) 
 
 }  // namespace
 
+TEST_CASE("an Ask whose timeout is no time asks nothing before its fault") {
+  const TemporaryDirectory directory;
+  for (const auto& [timeout, code] : {std::pair("-1.0", 5), std::pair("0.02", 1)}) {
+    directory.file("t.xml", std::string(R"(<root lockstep="1"><BehaviorTree ID="M">
+      <Sequence memory="true"><Script code="t := )") +
+                                timeout + R"("/>
+      <Ask name="q" text="Go?" options="yes;no" timeout="{t}"/></Sequence></BehaviorTree></root>)");
+    const Outcome it = shell("lockstep run t.xml --clock virtual --view plain", directory);
+    INFO(it.out << it.err);
+    CHECK(it.code == code);
+    CHECK(contains(it.out + it.err, "asks: Go? (yes, no)") == (code == 1));
+    CHECK(contains(it.out + it.err, "asks:") == (code == 1));
+  }
+}
+
 TEST_CASE("scenario: without an answer the time of an Ask passes") {
   check_asking(R"(<expect order="to_left.success"/><expect result="success" time="2.2..2.4"/>)");
 }

@@ -8,6 +8,15 @@
 #include "base/core/diagnostics.h"
 
 namespace lockstep::host {
+namespace {
+
+// A node that a fault ends before it asks, such as a timeout below 0, stays Running and has no
+// text.
+bool has_failed(const Moment& moment, NodeIndex node) {
+  return moment.live != nullptr && moment.live->faulted() && moment.reason(node).empty();
+}
+
+}  // namespace
 
 OpenQuestions::OpenQuestions(const Shape& shape, Tell tell, std::function<void()> on_change)
     : shape_(shape), tell_(std::move(tell)), on_change_(std::move(on_change)) {
@@ -37,7 +46,7 @@ void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
     const Lock lock(mutex_);  // nobody holds it for long
     const auto it = std::ranges::find(now_, node, &OpenQuestion::node);
     // One that was held at a cut has no text until its next tick. It may also have its answer.
-    const bool begins = asks && moment.state(node).ticked();
+    const bool begins = asks && moment.state(node).ticked() && !has_failed(moment, node);
     if (it == now_.end() ? !begins : !is_over(moment, *it)) continue;
     is_changed = true;
     if (it != now_.end()) {
