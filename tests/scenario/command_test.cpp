@@ -663,6 +663,36 @@ TEST_CASE("a leaf with seconds has the progress of a Wait in each tick, at any r
   }
 }
 
+TEST_CASE("a fact in a property of runs is refused with where facts exist") {
+  const std::string where =
+      "facts exist only in --property and --property-file of `lockstep verify`";
+  const Folder folder(R"(<scenario name="a" verify="yes"><expect>never {fact:whole} == true</expect>
+                         </scenario>)");
+  folder.directory().file("t.test.xml",
+                          R"(<scenarios lockstep="1" tree="t.xml" leaves="m.leaves.xml">
+    <scenario name="a" verify="yes"><expect>never {fact:whole} == true</expect></scenario></scenarios>)");
+  const std::string leaves =
+      folder.directory().file("m.leaves.xml", R"(<leaves lockstep="1" rate="10">
+    <fact name="whole"/><leaf path="*" result="success"/></leaves>)");
+  const Outcome tested = folder.test();
+  INFO(tested.out << tested.err);
+  CHECK(tested.code == 3);
+  CHECK(contains(tested.out, "no entry 'fact:whole'"));
+  CHECK(contains(tested.out, where));
+  const auto out_of = [&](std::vector<std::string> words, const std::string& property) {
+    words.insert(words.end(), {folder.path("t.xml"), "--mock", "--property", property});
+    const Outcome it = run_lockstep(words);
+    return it.out + it.err;
+  };
+  CHECK(contains(out_of({"run"}, "never {fact:whole} == true"), where));
+  // Of a model that has others, they are named.
+  const std::vector<std::string> verify{"verify", "--leaves", leaves};
+  CHECK(!contains(out_of(verify, "never {fact:whole} == true"), "no entry"));
+  const std::string other = out_of(verify, "never {fact:whola} == true");
+  CHECK(contains(other, "did you mean 'fact:whole'?"));
+  CHECK(!contains(other, where));
+}
+
 TEST_CASE("test --update does not write a recording that differing runs would share") {
   const Folder folder(R"(<scenario name="a" runs="5"><expect same-as="gold.jsonl"/></scenario>)");
   // A leaf that takes as many ticks as the seed chooses.

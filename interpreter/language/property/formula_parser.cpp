@@ -35,6 +35,19 @@ bool is_one_of(std::string_view type, std::initializer_list<std::string_view> ty
   return std::ranges::find(types, type) != types.end();
 }
 
+// {fact:charged}, an entry only for those who know the leaf models.
+bool is_fact(std::string_view key) {
+  return key.starts_with("fact:");
+}
+
+std::string hint_about_entry(std::string_view wrong, const std::vector<std::string_view>& keys) {
+  if (is_fact(wrong) && std::ranges::none_of(keys, is_fact)) {
+    return "facts exist only in --property and --property-file of `lockstep verify`, with a leaf "
+           "model that has them";
+  }
+  return keys.empty() ? "there are no entries" : suggest(wrong, keys, "entries");
+}
+
 }  // namespace
 
 const PropertyToken& FormulaParser::token() {
@@ -208,8 +221,7 @@ void FormulaParser::entry_term() {
     std::vector<std::string_view> keys;
     for (const auto& entry : entries) keys.push_back(entry.key);
     throw PropertyError{fmt::format("no entry '{}'", brief(key.text)),
-                        keys.empty() ? "there are no entries" : suggest(key.text, keys, "entries"),
-                        key.offset};
+                        hint_about_entry(key.text, keys), key.offset};
   }
   // Two SubTrees of one name, in different nodes.
   const auto count =
