@@ -23,12 +23,32 @@ bool is_leaf(const NodeType& type) {
   return is_condition(type) || type.category == NodeCategory::Action;
 }
 
-bool fits(const std::string& of, const std::string& path, const Tree& tree, const LeafNode& leaf) {
-  if (!is_leaf(*leaf.type)) return false;
-  if (path.empty()) return of == leaf.type->id;
-  const std::string it = tree.path(leaf.node);
-  return matches(path, it) || matches("*/" + path, it);
-}
+// The leaves of a type, or those that a path is about: the leaf that has it as its complete path,
+// else each leaf that matches it, or an end of whose path does. So M/arm is not M/M/arm where both
+// are there, and M/* is the leaf that is named '*'.
+class Chosen {
+ public:
+  Chosen(const std::string& of, const std::string& path, const Tree& tree)
+      : of_(of), path_(path), tree_(tree) {
+    is_complete_ = std::ranges::any_of(tree.leaves, [&](const LeafNode& leaf) {
+      return is_leaf(*leaf.type) && tree.path(leaf.node) == path;
+    });
+  }
+
+  bool has(const LeafNode& leaf) const {
+    if (!is_leaf(*leaf.type)) return false;
+    if (path_.empty()) return of_ == leaf.type->id;
+    const std::string it = tree_.path(leaf.node);
+    if (is_complete_) return path_ == it;
+    return matches(path_, it) || matches("*/" + path_, it);
+  }
+
+ private:
+  const std::string& of_;
+  const std::string& path_;
+  const Tree& tree_;
+  bool is_complete_ = false;
+};
 
 class CastMaker {
  public:
@@ -60,8 +80,9 @@ class CastMaker {
   // Later rows win.
   void choose(const BindingRow& row, std::vector<const BindingRow*>& rows) const {
     bool is_there = false;
+    const Chosen chosen(row.of, row.path, tree_);
     for (std::size_t leaf = 0; leaf < rows.size(); ++leaf) {
-      if (!fits(row.of, row.path, tree_, tree_.leaves[leaf])) continue;
+      if (!chosen.has(tree_.leaves[leaf])) continue;
       rows[leaf] = &row;
       is_there = true;
     }
@@ -155,8 +176,9 @@ class CastMaker {
 std::vector<NodeIndex> find_leaves(const Tree& tree, const std::string& of,
                                    const std::string& path) {
   std::vector<NodeIndex> found;
+  const Chosen chosen(of, path, tree);
   for (const LeafNode& it : tree.leaves) {
-    if (fits(of, path, tree, it)) found.push_back(it.node);
+    if (chosen.has(it)) found.push_back(it.node);
   }
   std::ranges::sort(found);
   return found;

@@ -663,6 +663,24 @@ TEST_CASE("a leaf with seconds has the progress of a Wait in each tick, at any r
   }
 }
 
+TEST_CASE("a row with the complete path of a leaf is about that leaf alone") {
+  const std::string tree =
+      R"(<root lockstep="1" main_tree_to_execute="M"><BehaviorTree ID="M"><Sequence memory="true">
+      <Sees name="*" out="{x}"/><Go name="!"/><SubTree ID="N" name="M"/></Sequence></BehaviorTree>
+    <BehaviorTree ID="N"><Sequence memory="true"><Go name="!"/></Sequence></BehaviorTree>
+    <TreeNodesModel><Action ID="Go"/><Action ID="Sees"><output_port name="out" type="int"/></Action>
+    </TreeNodesModel></root>)";
+  const Folder folder(R"(<scenario name="a">
+      <leaf path="M/Sequence/M/Sequence/!" result="failure" ticks="2"/>
+      <leaf path="M/Sequence/!" result="success" ticks="3"/>
+      <leaf path="M/Sequence/*" result="success" out.out="7"/>
+      <expect result="failure" ticks="4"/></scenario>)",
+                      tree);
+  const Outcome it = folder.test();
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+}
+
 TEST_CASE("a fact in a property of runs is refused with where facts exist") {
   const std::string where =
       "facts exist only in --property and --property-file of `lockstep verify`";
