@@ -1,9 +1,10 @@
 #include "run/run_control.h"
 
-#include "engine/blackboard.h"
-
 #include <algorithm>
 #include <utility>
+
+#include "engine/blackboard.h"
+#include "run/set_entry.h"
 
 namespace lockstep::host {
 
@@ -122,7 +123,7 @@ RunControl::Effect RunControl::obey(const Order& order, Ticker& ticker, Blackboa
       speed_ = order.speed;
       break;
     case Order::What::Set:
-      set(blackboard.entries[order.slot], order);
+      set_entry(blackboard.entries[order.slot], order.type, nullptr, order.value);
       return Effect::OnState;
     case Order::What::Attend:
       attended_ = monotonic_now();
@@ -146,15 +147,6 @@ bool RunControl::answer(const Order& order, Ticker& ticker) {
 }
 
 // An entry without a type keeps none, as one of a tree for BehaviorTree.CPP may.
-void RunControl::set(Entry& entry, const Order& order) {
-  if (!entry.is_present) make_entry(entry, Typing::Any);
-  if (entry.typing != Typing::Any) {
-    write_entry(entry, order.type, nullptr, order.value);
-  } else {
-    entry.assign(order.value);
-  }
-}
-
 void RunControl::count_tick(Ticker& ticker) {
   reached_ = breakpoints_.reached(ticker);
   const bool is_last = ticks_left_ && --*ticks_left_ == 0;

@@ -102,7 +102,6 @@ class RunControl {
   bool obey_new(Ticker& ticker, Blackboard& blackboard);
   Effect obey(const Order& order, Ticker& ticker, Blackboard& blackboard);
   void pause(bool is_stepping);
-  static void set(Entry& entry, const Order& order);
   static bool answer(const Order& order, Ticker& ticker);
 
   std::atomic<bool> has_new_{false};

@@ -152,7 +152,8 @@ class ScenarioBinder {
           fmt::format("expected {}", expected_text(slot->type)));
     }
     const auto place = static_cast<std::uint32_t>(slot - tree_.slots.begin());
-    bound_.changes.push_back({place, std::move(*value), change.tick, change.time});
+    bound_.changes.push_back(
+        {place, std::move(*value), change.tick, change.time, change.value_place});
   }
 
   void add_expectation(const Expectation& it) {

@@ -18,6 +18,7 @@ struct PreparedChange {
   Value value;
   std::uint64_t tick;
   std::optional<double> time;
+  Place place;  // of the value
 };
 
 // An answer of a person to this node.

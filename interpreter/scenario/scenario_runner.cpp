@@ -84,6 +84,7 @@ ScenarioResult ScenarioRunner::run(const ScenarioRunOptions& options) const {
   result.end = run_loop(run, clock, loop, observers);
   result.surprises = judge.verdict(result.end, measured ? &*measured : nullptr);
   std::ranges::move(inputs.verdict(), std::back_inserter(result.surprises));
+  std::ranges::copy(writer.verdict(), std::back_inserter(result.surprises));
   std::ranges::copy(answerer.verdict(), std::back_inserter(result.surprises));
   std::ranges::stable_sort(result.surprises, {}, [](const Surprise& it) { return it.place.byte; });
   if (recorder && !recorder->error().empty()) result.problem = recorder->error();

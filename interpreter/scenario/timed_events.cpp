@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "run/set_entry.h"
+
 namespace lockstep::host {
 
 void EntryWriter::before_tick(const Moment&, std::uint64_t tick, Nanoseconds time) {
@@ -12,8 +14,10 @@ void EntryWriter::before_tick(const Moment&, std::uint64_t tick, Nanoseconds tim
     is_done_[i] = true;
     const Slot& slot = run_.ticker().tree().slots[it.slot];
     Entry& entry = run_.blackboard().entries[it.slot];
-    entry.is_present = true;
-    write_entry(entry, slot.type, slot.object, it.value);
+    if (set_entry(entry, slot.type, slot.object, it.value)) continue;
+    surprises_.push_back(
+        {it.place, fmt::format("in tick {}, '{}' cannot be set to {}: it is {}", tick, slot.name,
+                               to_text(it.value), to_text(entry.value()))});
   }
 }
 

@@ -32,11 +32,14 @@ class EntryWriter final : public Observer {
   EntryWriter(const BoundScenario& bound, Run& run)
       : changes_(bound.changes), is_done_(changes_.size()), run_(run) {}
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  // The values that an entry could not hold.
+  const std::vector<Surprise>& verdict() const { return surprises_; }
 
  private:
   const std::vector<PreparedChange>& changes_;
   std::vector<bool> is_done_;
   Run& run_;
+  std::vector<Surprise> surprises_;
 };
 
 // Answers for people, before ticks.

@@ -66,7 +66,7 @@ std::vector<Surprise> verify_scenario(const BoundScenario& bound, const Fixture&
     if (!it.accepted.empty()) continue;
     surprises.push_back(
         {place_of(it, bound), fmt::format("finding {}: {}", it.name, it.message), it.more});
-    surprises.back().more.push_back("lockstep verify shows a run to it");
+    if (!it.run.empty()) surprises.back().more.push_back("lockstep verify shows a run to it");
   }
   add_results(bound, found, surprises);
   const auto wrong =

@@ -318,7 +318,7 @@ class VerdictMaker {
         if (marks[leaf].ticked) worked.insert(tree_.path(tree_.leaves[leaf].node));
       }
     });
-    if (worked.empty()) return "no leaf gets ticks";
+    if (worked.empty()) return "no leaf of a plugin gets ticks";
     return "what gets ticks: " + some_of({worked.begin(), worked.end()});
   }
 
@@ -417,7 +417,7 @@ class VerdictMaker {
       }
       is_end = status != Status::Running;
     });
-    if (events.empty()) events.emplace_back("no leaf gets ticks");
+    if (events.empty()) events.emplace_back("no leaf of a plugin gets ticks");
     return fmt::format("in tick {}{}: {}", finding.run.size() - 1,
                        is_end ? ", in which the run ends" : "", some_of(events));
   }

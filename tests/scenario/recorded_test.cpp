@@ -268,6 +268,26 @@ on_failure="seen := 4"/><Script code="n := seen"/></Sequence>)",
   CHECK(contains(halted.out, R"(/a" does="R0.1 R0.2*2"/>)"));
 }
 
+TEST_CASE("a scenario sets an entry as the monitor does, and says what the entry cannot hold") {
+  const TemporaryDirectory directory;
+  static_cast<void>(
+      directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence>
+<Script code="k := 1"/><Sleep msec="300"/><Script code="j := k + 1"/>
+<ScriptCondition code="j == 3.5"/></Sequence></BehaviorTree></root>)"));
+  const auto played = [&](const std::string& sets) {
+    return run_lockstep(
+        {"test", directory.file("t.test.xml", R"(<scenarios lockstep="1" tree="t.xml">
+<scenario name="x">)" + sets + R"(<expect result="success"/></scenario></scenarios>)")});
+  };
+  const Outcome twice =
+      played(R"(<set key="k" value="7" tick="1"/><set key="k" value="2.5" tick="2"/>)");
+  INFO(twice.out << twice.err);
+  CHECK(twice.code == 0);
+  const Outcome typed = played(
+      R"(<set key="k" value="7" tick="1"/><set key="k" value="2.5" tick="2"/><set key="k" value="a" time="0.25"/>)");
+  CHECK(typed.code != 0);
+}
+
 TEST_CASE("a halt that writes an entry after a leaf is said in the scenario") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T">

@@ -142,6 +142,8 @@ class Adviser {
     const std::span nodes(definition_.nodes.begin() + earlier, at(earlier).end - earlier);
     const bool is_guess =
         std::ranges::any_of(nodes, [](const DefinitionNode& it) { return it.type->is_guess; });
+    const bool tries_others = type.goes_on_after == Status::Failure;
+    constexpr auto kDecide = "put a condition before the action that decides whether to try it";
     if (type.is_reactive) {
       return add("restarted"_code, earlier, is_guess ? Severity::Note : Severity::Warning,
                  fmt::format("'{}' is started again in every tick in which {}'{}'{} runs, and "
@@ -149,8 +151,10 @@ class Adviser {
                              brief(at(earlier).name), is_namesake ? "the " : "",
                              brief(at(later).name), is_namesake ? " after it" : ""),
                  is_guess ? "if it is a condition, write <Condition ID=\"…\"/>"
-                          : "put the action before this node, in a Sequence, or let a condition "
-                            "decide");
+                 : tries_others
+                     ? kDecide
+                     : "put the action before this node, in a Sequence, or let a condition "
+                       "decide");
     }
     add("restarted"_code, earlier, Severity::Warning,
         fmt::format("'{}' is started again in every tick in which {}'{}'{} runs",
@@ -159,9 +163,9 @@ class Adviser {
         fmt::format("without memory a {} begins with its first child in every tick: give it "
                     "memory=\"true\", or {}",
                     type.id,
-                    type.goes_on_after == Status::Success
-                        ? "let the action return Success at once if its goal is already reached"
-                        : "put a condition before the action that decides whether to try it"));
+                    tries_others
+                        ? kDecide
+                        : "let the action return Success at once if its goal is already reached"));
   }
 
   // Without memory a parallel ticks a child that completed again, as long as another one runs.

@@ -28,7 +28,9 @@ class Pretend : public SyncActionNode {
   }
 };
 
+// The DOCTYPE is passed over, as the library does it.
 static const char* const kTrees = R"(
+<!DOCTYPE root [<!ENTITY leg "left">]>
 <root BTCPP_format="4" main_tree_to_execute="Main">
   <BehaviorTree ID="Main">
     <Sequence>

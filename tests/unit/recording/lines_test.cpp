@@ -263,7 +263,8 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const GivenAnswer answer{.node = 2, .answer = "yes", .who = "terminal"};
   const NodeIndex succeeded = 1;
   const Fault fault{.node = 2, .message = "threw"};
-  const EntryChange entry{.entry = 0, .text = &value, .is_set = true};
+  const EntryChange entry{
+      .entry = 0, .text = &value, .is_set = true, .is_written_again = true, .given = &value};
   const LeafLine log{"T/a", "info", "text"};
   const TickMoment moment{.times = 3, .changes = 1};
   const MomentChange of_moment{

@@ -93,6 +93,8 @@ class XmlReader {
         skip_past("]]>", "a CDATA section");
         if (inside != nullptr) inside->append(text_.substr(begin, at_ - 3 - begin));
       } else if (is_at("<!")) {
+        const bool has_definitions = text_.find('[', at_) < text_.find('>', at_);
+        if (has_definitions) skip_past("]", "a declaration");
         skip_past(">", "a declaration");
       } else if (text_[at_] == '<') {
         return;
