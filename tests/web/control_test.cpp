@@ -123,6 +123,11 @@ TEST_CASE(
     CHECK(it.run().process().finish().code == 0);
   }
   CHECK(contains(read_file(run), R"("set":[1],"given":[[1,"true"]]})"));
+  const std::string events = run_lockstep({"log", "events", run}).out;
+  INFO(events);
+  const auto given = events.find("entry    go: true");
+  REQUIRE(given != events.npos);
+  CHECK(events.find("Script#2", given) < events.find("entry    go: false", given));
   CHECK(run_lockstep({"log", "scenario", run, "--save", file}).code == 0);
   const std::string text = read_file(file);
   INFO(text);

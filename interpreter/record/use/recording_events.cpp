@@ -61,6 +61,9 @@ class Events {
     now_.clear();
     for (const RecordedState& it : tick.nodes) now_.push_back(it.state());
     keep_others(now_);
+    for (const RecordedEntry& it : tick.given) {  // from outside, before the tick
+      if (!is_first) add(EventKind::Entry, header_.entries[it.entry].key, shown_value(it));
+    }
     if (is_first) {
       for (NodeIndex node = 0; node < now_.size(); ++node) {  // what changed with it is not known
         is_told_held_[node] = is_held_itself(node, now_);
