@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "support/json.h"
 #include "support/paths.h"
 #include "support/program.h"
 
@@ -661,6 +662,26 @@ TEST_CASE("a leaf with seconds has the progress of a Wait in each tick, at any r
     INFO(rate << ": " << it.out << it.err);
     CHECK(it.code == 0);
   }
+}
+
+TEST_CASE("a Wait stops at a barrier of a tick, also at a rate whose period is rounded") {
+  // One tick is 1/6 of the Wait: 0.2 s at 30 Hz as 0.6 s at 10 Hz.
+  const auto ticks_held = [](const std::string& rate, const std::string& first,
+                             const std::string& second) {
+    const TemporaryDirectory directory;
+    const std::string tree =
+        directory.file("t.xml",
+                       "<root lockstep=\"1\"><BehaviorTree ID=\"T\"><ParallelAbsolute name=\"p\" "
+                       "barrier_count=\"6\"><Wait name=\"w\" seconds=\"" +
+                           first + "\"/><Wait name=\"b\" seconds=\"" + second +
+                           "\"/></ParallelAbsolute></BehaviorTree></root>");
+    const Outcome it = run_lockstep(
+        {"run", tree, "--rate", rate, "--clock", "virtual", "--view", "none", "--json"});
+    INFO(it.out << it.err);
+    return parse_json(it.out)["synchronized_nodes"][0]["children"][0]["held_ticks"].get<int>();
+  };
+  CHECK(ticks_held("30", "0.2", "1") == 24);
+  CHECK(ticks_held("10", "0.6", "3") == 24);
 }
 
 TEST_CASE("a row with the complete path of a leaf is about that leaf alone") {

@@ -21,6 +21,12 @@ Nanoseconds Deadlines::whole_periods(Nanoseconds time) const {
   return std::chrono::abs(whole - time) <= kRoundings ? whole : time;
 }
 
+double Deadlines::exact_seconds(Nanoseconds time) const {
+  if (time < Nanoseconds(0)) return to_seconds(time);
+  const auto periods = static_cast<std::uint64_t>(to_seconds(time) * rate_ + 0.5);
+  return divided(periods) == time ? static_cast<double>(periods) / rate_ : to_seconds(time);
+}
+
 std::uint64_t Deadlines::first_from(Nanoseconds time) const {
   // The product is rounded, so it may be off by one.
   auto k = static_cast<std::uint64_t>(to_seconds(time) * rate_);

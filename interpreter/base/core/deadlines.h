@@ -33,6 +33,10 @@ class Deadlines {
   Nanoseconds between(Nanoseconds from, Nanoseconds to) const {
     return period_ != 0 ? to - from : whole_periods(to - from);
   }
+  // Such a time in seconds. One period is 1/30 s at 30 Hz, and not 33,333,333 ns.
+  double seconds_of(Nanoseconds between) const {
+    return period_ != 0 ? to_seconds(between) : exact_seconds(between);
+  }
   // The shortest such time that is not less than this one.
   Nanoseconds at_least(Nanoseconds time) const {
     return period_ != 0 ? time : at(first_from(time));
@@ -41,6 +45,7 @@ class Deadlines {
  private:
   Nanoseconds divided(std::uint64_t k) const;
   Nanoseconds whole_periods(Nanoseconds time) const;
+  double exact_seconds(Nanoseconds time) const;
 
   double rate_ = 1e9;
   std::uint64_t period_ = 1;  // 0: not whole

@@ -51,7 +51,8 @@ void fold_mock_action(NodeContext& context, NodeIndex self) {
 }
 
 double action_progress(NodeContext& context, NodeIndex self) {
-  return progress_of_time(timed::counted(context, self), time_of_mock(context, self));
+  return progress_of_time(timed::counted(context, self), time_of_mock(context, self),
+                          context.deadlines());
 }
 
 Status tick_mock_condition(NodeContext& context, NodeIndex self) {

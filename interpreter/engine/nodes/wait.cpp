@@ -21,7 +21,8 @@ Status tick_wait(NodeContext& context, NodeIndex self) {
 
 template <bool kObeys>
 double progress_of_wait(NodeContext& context, NodeIndex self) {
-  return progress_of_time(timed::counted<kObeys>(context, self), duration(context, self));
+  return progress_of_time(timed::counted<kObeys>(context, self), duration(context, self),
+                          context.deadlines());
 }
 
 extern const NodeKind kObeyingWait;

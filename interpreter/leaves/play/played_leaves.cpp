@@ -84,7 +84,7 @@ class PlayedLeaf final : public RemoteLeaf {
   }
   // While it is held it may drift, by a word in each tick.
   double progress() override {
-    if (time_.count() > 0) return progress_of_time(passed(), time_);
+    if (time_.count() > 0) return progress_of_time(passed(), time_, deadlines_);
     const std::size_t count = is_held_ ? held_words() : 0;
     return count == 0 ? progress_ : (*words_)[at_ + count - 1].progress;
   }
