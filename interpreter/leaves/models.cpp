@@ -392,7 +392,7 @@ class ModelMaker {
     auto it = outputs_.find(fmt::format("{}.{}", type.id, port.name));
     if (it == outputs_.end()) it = outputs_.find(port.name);
     if (it == outputs_.end()) return std::nullopt;
-    return port.is_generic ? value_of_any_type(it->second) : parse_value(port.type, it->second);
+    return value_from_outside(port.is_generic, port.type, it->second);
   }
 
   // --- progress ----------------------------------------------------------------------------------

@@ -142,9 +142,8 @@ class ScenarioBinder {
                               fmt::format("the tree has no entry '{}'", brief(change.key)),
                               suggest(change.key, known, "its entries"));
     }
-    std::optional<Value> value = slot->typing == Typing::Any
-                                     ? value_of_any_type(change.value)
-                                     : parse_value(slot->type, change.value);
+    std::optional<Value> value =
+        value_from_outside(slot->typing == Typing::Any, slot->type, change.value);
     if (!value) {
       return report_.at_value(
           "bad-value"_code, change.value_place,

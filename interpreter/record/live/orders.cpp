@@ -124,7 +124,7 @@ Result<Order> set(const Shape& shape, const Fields& fields) {
     return problem(
         fmt::format("'{}' holds objects of a plugin: they have no text", printable(key)));
   }
-  auto value = is_any ? std::optional(value_of_any_type(text)) : parse_value(type, text);
+  auto value = value_from_outside(is_any, type, text);
   if (!value) {
     return problem(fmt::format("'{}' is not {}, which '{}' holds", printable(text),
                                expected_text(type), printable(key)));

@@ -273,8 +273,8 @@ class Builder {
     if (given == outputs_.end()) given = outputs_.find(port.name);
     if (given != outputs_.end()) {
       used_outputs_.insert(given->first);
-      if (port.is_generic) return value_of_any_type(given->second);
-      if (auto value = parse_value(port.type, given->second)) return *std::move(value);
+      auto value = value_from_outside(port.is_generic, port.type, given->second);
+      if (value) return *std::move(value);
       report_.nowhere("bad-option"_code,
                       fmt::format("--mock-output {}={}: '{}' of '{}' is {}", given->first,
                                   given->second, port.name, brief(id), expected_text(port.type)));
