@@ -1,5 +1,7 @@
 #include "scenario/golden.h"
 
+#include <sys/stat.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,6 +73,13 @@ bool is_below(const fs::path& folder, const fs::path& path) {
 bool is_recording(const std::string& path) {
   const auto line = header_line(path);
   return line && line->starts_with(kHeaderBegin);
+}
+
+// The same of all names of one file, also of hard links.
+std::string identity_of(const std::string& path) {
+  struct stat file {};
+  const bool is_file = stat(path.c_str(), &file) == 0 && S_ISREG(file.st_mode);
+  return is_file ? fmt::format("{}:{}", file.st_dev, file.st_ino) : path;
 }
 
 // A recording with which a run is compared.
@@ -186,7 +195,7 @@ GoldenFiles::GoldenFiles(const std::vector<const ScenarioFile*>& files) {
     for (const Scenario& scenario : file->scenarios) {
       for (const Expectation& it : scenario.expectations) {
         if (it.kind == Expectation::Kind::SameAs)
-          users_[without_links(it.texts[0])].insert(&scenario);
+          users_[identity_of(without_links(it.texts[0]))].insert(&scenario);
       }
     }
   }
@@ -206,11 +215,13 @@ void GoldenFiles::check(const ScenarioFile& file, const Scenario& scenario,
     };
     if (!is_below(folder, path)) {
       refuse("it is not below the folder of the scenario file", "name a recording in that folder");
+    } else if (fs::path(it.texts[0]).filename().empty()) {
+      refuse("it names a folder", "name a file");
     } else if (path.ends_with(".mcap") || path.ends_with(".mcap.zst")) {
       refuse("a run is not compared with an MCAP file", "name it FILE.jsonl or FILE.jsonl.zst");
     } else if (fs::exists(path) && !(fs::is_regular_file(path) && is_recording(path))) {
       refuse("it is not a recording", "name another file, or remove this one");
-    } else if (users_.at(path).size() > 1) {
+    } else if (users_.at(identity_of(path)).size() > 1) {
       refuse("it is the recording of several scenarios", "name a file for each");
     }
   }

@@ -729,6 +729,13 @@ TEST_CASE("convert warns of a fault that the other language may not have") {
                  "warning: each tick of 'Script' is a fault, whatever the leaves do: its code: "
                  "cannot assign 0 to 'ready', which has the type string [not-the-same]"));
   CHECK(errors("1", "ready = false").empty());
+  const Outcome by_model = run_lockstep(
+      {"convert", directory.file("tree.xml", R"(<root BTCPP_format="4" main_tree_to_execute="M">
+<BehaviorTree ID="M"><SubTree ID="T"/></BehaviorTree><BehaviorTree ID="T">
+<Fallback><Condition ID="Ok"/><Script code="c = false"/></Fallback></BehaviorTree><TreeNodesModel>
+<SubTree ID="T"><inout_port name="c" default="true"/></SubTree><Condition ID="Ok"/></TreeNodesModel>
+</root>)")});
+  CHECK(contains(by_model.err, "2:22: warning: 'c=true' is not quite the same"));
 }
 
 TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
@@ -1007,6 +1014,10 @@ TEST_CASE("convert writes a SetBlackboard with the type of its entry") {
   CHECK(contains(converted("5", "<Script code=\"x := 3\"/>").err, is_text_there));
   CHECK_FALSE(contains(converted("5", "<ScriptCondition code=\"x == 3\"/>").err, is_text_there));
   CHECK_FALSE(contains(converted("5", say, model("int")).err, is_text_there));
+  const Outcome two_types = converted("5", "<Script code=\"x := 3\"/><Script code=\"x = true\"/>");
+  CHECK(contains(two_types.err, "x := 5' is not quite the same"));
+  const Outcome text = converted("true", "<Script code=\"x := 3\"/>");
+  CHECK(contains(text.err, "x := 'true'' is not quite the same"));
   const std::string is_told = "note: the type of the entry in 'x := 1' is not known";
   CHECK(contains(converted("1", say).err, is_told));
   CHECK_FALSE(contains(converted("1", say, model("int")).err, is_told));

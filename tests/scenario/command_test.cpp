@@ -607,6 +607,7 @@ TEST_CASE("test --update writes over nothing but the recordings of one scenario,
               {scenario("a", "../other.jsonl"), "it is not below the folder of the scenario file"},
               {scenario("a", "link.jsonl"), "it is a symbolic link"},
               {scenario("a", "pipe.jsonl"), "it is not a recording"},
+              {scenario("a", "new/"), "it names a folder"},
               {scenario("a", "gold.jsonl") + scenario("b", "x/../gold.jsonl"),
                "it is the recording of several scenarios"}};
   for (const auto& [text, why] : rows) {
@@ -627,6 +628,23 @@ TEST_CASE("test --update writes over nothing but the recordings of one scenario,
     CHECK(!std::filesystem::exists(folder.path("gold.jsonl")));
     CHECK(!std::filesystem::exists(folder.path("../other.jsonl")));
   }
+}
+
+TEST_CASE("test --update knows a recording by each of its names") {
+  const auto scenario = [](const std::string& name, const std::string& more) {
+    return "<scenario name=\"" + name + "\"" + more + "><expect same-as=\"" + name +
+           ".jsonl\"/></scenario>";
+  };
+  const Folder folder(scenario("a", " rate=\"10\"") + scenario("b", " rate=\"20\""));
+  REQUIRE(run_lockstep({"run", folder.path("t.xml"), "--clock", "virtual", "--view", "none",
+                        "--record", folder.path("a.jsonl")})
+              .code < 2);
+  std::filesystem::create_hard_link(folder.path("a.jsonl"), folder.path("b.jsonl"));
+  const std::string before = read_file(folder.path("a.jsonl"));
+  const Outcome it = folder.test({"--update"});
+  CHECK(it.code == 3);
+  CHECK(contains(it.out, "it is the recording of several scenarios"));
+  CHECK(read_file(folder.path("a.jsonl")) == before);
 }
 
 TEST_CASE("test --update does not write the recording of a scenario that fails otherwise") {

@@ -390,6 +390,8 @@ class Converter {
                     fmt::format("the key '{}', by the model of this SubTree,", brief(name)),
                     fmt::format("a key is {}", kIdentifierRule));
     }
+    if (key.empty())
+      warn_of_start_text(place_of(element), element, port.name, std::string(*port.default_value));
     add_attribute(token, port.name,
                   key.empty() ? std::string(*port.default_value) : fmt::format("{{{}}}", key));
   }
@@ -455,7 +457,7 @@ class Converter {
                  "in quotes",
                  Severity::Note);
     }
-    if (!converted.is_text) warn_of_text(place_of(element), converted.code, entry);
+    if (!converted.is_entry) warn_of_text(place_of(element), converted.code, entry);
     open_.back().tag = "Script";
     add_attribute(token, "code", converted.code);
   }
@@ -463,12 +465,18 @@ class Converter {
   // What is a text there may be a number here, with which a script goes on: n := 0,
   // SetBlackboard n="1", n += 1.
   void warn_of_text(Place place, std::string_view what, const EntryTypes::Found& entry) const {
-    const bool is_number = entry.type && entry.type != ValueType::String;
-    if (!is_number || entry.has_port || report_.counted_only(Severity::Warning)) return;
+    if (!entry.has_number || entry.has_port || report_.counted_only(Severity::Warning)) return;
     report_.at("not-the-same"_code, place, fmt::format("'{}' is not quite the same", brief(what)),
-               "for BehaviorTree.CPP the value is a text, so a script that then assigns a number "
-               "to the entry fails",
+               "for BehaviorTree.CPP the entry then has a text, to which no script assigns a "
+               "number; in lockstep's language it keeps the type that scripts give it",
                Severity::Warning);
+  }
+
+  void warn_of_start_text(Place place, std::uint32_t subtree, std::string_view name,
+                          const std::string& value) {
+    if (literal_type(value) != ValueType::String || !parse_flag(value)) return;
+    warn_of_text(place, fmt::format("{}={}", name, value),
+                 types_.of_start_value(place_of(subtree), name));
   }
 
   void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
@@ -693,11 +701,8 @@ class Converter {
     const std::string value = value_of(attribute);
     const std::string_view key = btcpp::key_of(value, name);
     if (key.empty() && is_script(name)) return convert_script(token, attribute, name);
-    if (key.empty() && is_subtree && literal_type(value) == ValueType::String &&
-        parse_flag(value)) {
-      warn_of_text(attribute.place, fmt::format("{}={}", name, value),
-                   types_.of_start_value(place_of(open_.back().element), name));
-    }
+    if (key.empty() && is_subtree)
+      warn_of_start_text(attribute.place, open_.back().element, name, value);
     if (key.empty()) return keep(token, attribute);
     if (is_script(name)) {
       return cannot(attribute.place, "a script in an entry", "write the script here");

@@ -62,7 +62,9 @@ void EntryTypes::see_script(const BoundScript& script) {
   for (const std::uint32_t entry : script.entries) types.push_back({found(entries_[entry]).type});
   const auto assigned = [&](std::uint32_t name, const StaticType& type) {
     Seen& seen = entries_[script.entries[name]];
-    if (type.type) add(seen.script, seen.scripts_differ, *type.type);
+    if (!type.type) return;
+    add(seen.script, seen.scripts_differ, *type.type);
+    seen.has_number |= type.type != ValueType::String;
   };
   infer_types(*script.code, types, {.assigned = assigned, .wrong = [](auto&&...) {}});
 }
@@ -71,7 +73,8 @@ EntryTypes::Found EntryTypes::found(const Seen& seen) {
   Found found{.has_port = seen.port.has_value(),
               .has_script = seen.scripts > seen.switches,
               .has_switch = seen.switches > 0,
-              .is_open = seen.is_open};
+              .is_open = seen.is_open,
+              .has_number = seen.has_number};
   if (seen.port) {
     if (!seen.ports_differ) found.type = seen.port;
   } else if (seen.declared && (!seen.is_open || seen.script)) {
@@ -88,6 +91,7 @@ EntryTypes::Found EntryTypes::common(Found one, const Found& other) {
   one.has_script |= other.has_script;
   one.has_switch |= other.has_switch;
   one.is_open |= other.is_open;
+  one.has_number |= other.has_number;
   return one;
 }
 

@@ -23,7 +23,8 @@ class EntryTypes {
     bool has_port = false;    // that gives the type
     bool has_script = false;  // that uses the entry, apart from that of a Switch
     bool has_switch = false;
-    bool is_open = false;  // a leaf that nothing describes uses it
+    bool is_open = false;     // a leaf that nothing describes uses it
+    bool has_number = false;  // that a script assigns, or a truth value
   };
   // Of the entry that a parameter of the node at that place names, or of the value of its script.
   Found of(Place node, std::string_view parameter) const;
@@ -36,7 +37,7 @@ class EntryTypes {
     std::optional<ValueType> port = {}, script = {}, declared = {};
     bool ports_differ = false, scripts_differ = false;
     int scripts = 0, switches = 0;  // a Switch of lockstep's language has a script
-    bool is_open = false;
+    bool is_open = false, has_number = false;
   };
   static bool is_switch(const NodeType& type);
   static void add(std::optional<ValueType>& seen, bool& differ, ValueType type);

@@ -32,7 +32,7 @@ ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element,
   if (!is_identifier(key)) return bad_key(key, *target);
   if (const auto from = btcpp::key_of(value->value, value->name); !from.empty()) {
     if (!is_identifier(from)) return bad_key(from, *value);
-    return {.code = fmt::format("{} := {}", key, from)};
+    return {.code = fmt::format("{} := {}", key, from), .is_entry = true};
   }
   const std::string literal = literal_of(value->value, type);
   if (literal.empty()) {

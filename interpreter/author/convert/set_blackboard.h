@@ -14,6 +14,7 @@ namespace lockstep::host {
 struct ConvertedSetter {
   std::string code = {};
   bool is_text = true;  // it assigns a text, or an entry
+  bool is_entry = false;
   std::string problem = {}, hint = {};
   Place place = {};  // of what is the problem
 };

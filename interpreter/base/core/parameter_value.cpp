@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/core/value_types.h"  // IWYU pragma: keep: a concept
 #include "base/core/wording.h"
@@ -93,7 +95,11 @@ Value sample_value(const Parameter& parameter) {
     return parse_value(parameter.type, *parameter.default_text).value_or(Value());
   }
   if (!parameter.choices.empty()) return std::string(parameter.choices.front());
-  for (const char* text : {"1", "0.5", "0", "-1", "100", "true"}) {
+  const auto [min, max, min_excluded] = parameter.range;
+  std::vector<std::string> texts{"1", "0.5", "0", "-1", "100", "true"};
+  for (const double number : {min, std::ceil(min), max, std::floor(max), (min + max) / 2})
+    if (std::isfinite(number)) texts.push_back(to_text(Value(number)));
+  for (const std::string& text : texts) {
     const auto value = parse_value(parameter.type, text);
     if (value && !refuse_value(parameter, *value)) return *value;
   }

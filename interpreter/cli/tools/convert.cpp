@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "author/convert/convert.h"
 #include "author/convert/since_4.h"
@@ -44,27 +45,37 @@ struct Checked {
   std::optional<Definition> definition;
 };
 
-// What is a fault in each run of the tree, and may be none in the other language. For example, a
-// SubTree gives its tree ready="true", which is a text for BehaviorTree.CPP and a bool here.
-void warn_of_faults(Checked&& before, Diagnostics& diagnostics) {
+std::vector<Diagnostic> faults_of(Checked&& checked) {
   Diagnostics advice;
-  add_advice(*before.project, *std::move(before.definition), AdviceEffort::Certain, advice);
-  for (const Diagnostic& it : advice.all()) {
-    if (it.code.text() != "always-fault") continue;
+  if (!checked.definition || checked.found.has_errors()) return {};
+  add_advice(*checked.project, *std::move(checked.definition), AdviceEffort::Certain, advice);
+  std::vector<Diagnostic> faults(advice.all().begin(), advice.all().end());
+  std::erase_if(faults, [](const Diagnostic& it) { return it.code.text() != "always-fault"; });
+  return faults;
+}
+
+// The errors of the result, and what is a fault in each run of one of both. For example, a SubTree
+// gives its tree ready="true", which is a text for BehaviorTree.CPP and a bool here.
+void check_result(const std::string& name, Checked&& before, const std::string& result,
+                  Diagnostics& diagnostics) {
+  const auto before_faults = faults_of(std::move(before));
+  for (const Diagnostic& it : before_faults) {
     diagnostics.warning("not-the-same"_code, it.location, it.message,
                         "the types of entries are others in the result, so look at it there");
   }
-}
-
-// The errors of the result.
-void check_result(const std::string& name, const std::string& result, Diagnostics& diagnostics) {
-  const Checked checked(name, result);
-  for (const Diagnostic& it : checked.found.all()) {
+  Checked after(name, result);
+  for (const Diagnostic& it : after.found.all()) {
     if (it.severity != Severity::Error || it.location.file != name) continue;
     diagnostics.warning(
         "not-convertible"_code, {name},
         fmt::format("line {} of the result has an error: {}", it.location.line, it.message),
         it.hint);
+  }
+  if (!before_faults.empty()) return;
+  for (const Diagnostic& it : faults_of(std::move(after))) {
+    diagnostics.warning("not-the-same"_code, {name},
+                        fmt::format("line {} of the result: {}", it.location.line, it.message),
+                        it.hint);
   }
 }
 
@@ -103,8 +114,8 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   auto result = is_older
                     ? convert_since_4(*document, to_nodes, report)
                     : convert(*document, {from, to, from_nodes, to_nodes, models, meaning}, report);
-  if (result && !before.found.has_errors()) check_result(name, *result, diagnostics);
-  if (result && before.definition) warn_of_faults(std::move(before), diagnostics);
+  if (result && !before.found.has_errors())
+    check_result(name, std::move(before), *result, diagnostics);
   return result;
 }
 
