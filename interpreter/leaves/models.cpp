@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/core/any_value.h"
+#include "base/core/parameter_value.h"
 #include "base/core/progress.h"
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
@@ -360,7 +361,8 @@ class ModelMaker {
       for (std::uint32_t port = 0; port < type.parameters.size(); ++port) {
         if (type.parameters[port].direction == Direction::Input) continue;
         const std::uint32_t slot = tree_.ports[tree_.leaves[leaf].first_port + port].slot;
-        if (slot == PortBinding::kUnbound || !matters[slot]) continue;
+        if (slot == PortBinding::kUnbound) continue;
+        if (!matters[slot] && !is_refused(slot, type.parameters[port])) continue;
         if (std::ranges::find(model.outputs, port, &LeafModel::Output::port) !=
             model.outputs.end()) {
           continue;
@@ -376,6 +378,10 @@ class ModelMaker {
           model.outputs.push_back({port, slot, {Value(false), Value(true)}});
           continue;
         }
+        if (!matters[slot]) {
+          model.outputs.push_back({port, slot, {sample_value(type.parameters[port])}});
+          continue;
+        }
         problems_.push_back(
             {model.node,
              fmt::format("'{}' writes the entry '{}', which the tree or a property reads, and "
@@ -384,8 +390,20 @@ class ModelMaker {
              fmt::format("declare them in the leaf model: <leaf of=\"{}\" out.{}=\"…|…\"/>",
                          type.id, type.parameters[port].name)});
       }
-      std::erase_if(model.outputs, [&](const auto& it) { return !matters[it.slot]; });
+      std::erase_if(model.outputs, [&](const auto& it) {
+        return !matters[it.slot] && !is_refused(it.slot, type.parameters[it.port]);
+      });
     }
+  }
+
+  // Whether the entry takes no value of the port, so that writing it is a fault: in a tree for
+  // BehaviorTree.CPP, one that began with a text.
+  bool is_refused(std::uint32_t slot, const Parameter& port) const {
+    const Slot& entry = tree_.slots[slot];
+    const bool has_text = entry.typing != Typing::Any && entry.type == ValueType::String &&
+                          std::holds_alternative<std::string>(entry.initial);
+    return has_text && !port.is_generic && port.type != ValueType::String &&
+           port.type != ValueType::Object;
   }
 
   std::optional<Value> given(const NodeType& type, const Parameter& port) const {

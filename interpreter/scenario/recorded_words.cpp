@@ -87,7 +87,7 @@ class WordMaker {
              it.who, tick.tick);
       }
     }
-    for (const RecordedEntry& entry : tick.entries) values_[entry.entry] = entry.value;
+    find_changed(tick);
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, moment, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) take_change(tick, entry);
     for (NodeIndex node = 0; node < before_.size(); ++node) before_[node] = tick.nodes[node].status;
@@ -121,6 +121,18 @@ class WordMaker {
   }
 
  private:
+  // The line of the first tick has each entry that has a value, also where that was there before.
+  void find_changed(const RecordedTick& tick) {
+    changed_.assign(header_.entries.size(), false);
+    for (const RecordedEntry& it : tick.entries) {
+      const auto start = header_.values.find(header_.entries[it.entry].key);
+      const std::string& before =
+          start == header_.values.end() ? initial_[it.entry] : start->second;
+      changed_[it.entry] = tick.tick > 0 || it.value != before;
+      values_[it.entry] = it.value;
+    }
+  }
+
   // Of an entry that was set from outside, what it was set to: the tree may have written it again.
   void take_change(const RecordedTick& tick, const RecordedEntry& entry) {
     const std::string& key = header_.entries[entry.entry].key;
@@ -130,6 +142,13 @@ class WordMaker {
     const auto given = std::ranges::find(tick.given, entry.entry, &RecordedEntry::entry);
     const auto& value = given == tick.given.end() ? entry.value : given->value;
     if (!value) return note_too_long(fmt::format("what set '{}' in tick {}", key, tick.tick));
+    if (tick.tick == 0 && is_set && !tree_.rules->strict_types) {
+      note(
+          Lacks::Start,
+          "'{}' was set before the first tick: the scenario begins with that value, which may give "
+          "the entry another type",
+          key);
+    }
     if (is_start) std::erase_if(words_.changes, [&](const auto& it) { return it.key == key; });
     words_.changes.push_back({key, *value, tick.tick});
   }
@@ -156,7 +175,8 @@ class WordMaker {
     Decision,
     Result,
     LastHalt,
-    Intervention
+    Intervention,
+    Start
   };
 
   // Each once.
@@ -383,7 +403,7 @@ class WordMaker {
       const ShapeEntry& key = header_.entries[entry.entry];
       const auto& writers = writers_[entry.entry];
       const bool is_writer = std::ranges::find(writers, it.node) != writers.end();
-      if (!is_writer) continue;
+      if (!is_writer || !changed_[entry.entry]) continue;
       each_output(it, [&](const Parameter& port, std::uint32_t slot) {
         if (tree_.slots[slot].name != key.key) return;
         const std::string& path = header_.nodes[it.node].path;
@@ -423,9 +443,7 @@ class WordMaker {
       const auto key = std::ranges::find(header_.entries, tree_.slots[slot].name, &ShapeEntry::key);
       if (key == header_.entries.end()) return;
       const auto entry = static_cast<std::uint32_t>(key - header_.entries.begin());
-      const bool has_changed =
-          std::ranges::find(tick.entries, entry, &RecordedEntry::entry) != tick.entries.end();
-      if (has_changed) return;
+      if (changed_[entry]) return;
       if (!is_overwritten(tick, entry, it.leaf->node, slot)) {
         const auto& value = values_[entry];
         const bool may_be =
@@ -454,6 +472,7 @@ class WordMaker {
   };
   std::vector<std::vector<Setter>> setters_;        // of each entry
   std::vector<std::optional<std::string>> values_;  // of each entry: the last that is known
+  std::vector<bool> changed_;                       // of each entry: in this tick
   std::vector<Status> before_;                      // of each node, after the tick before
   std::set<Lacks> noted_;
   std::vector<std::string> initial_;  // of each entry: what the tree gives it

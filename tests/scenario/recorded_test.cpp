@@ -125,6 +125,21 @@ TEST_CASE("a leaf that puts an entry back writes it in the scenario") {
   CHECK(contains(text, R"(does="S[found=true]*3"/>)"));
 }
 
+TEST_CASE("a start value is no write of a leaf in the scenario") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T">
+<Action ID="Look" found="{found}"/></BehaviorTree>)" + kLooks +
+                                                       "</root>");
+  const std::string run = directory.path("run.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--leaves",
+                        directory.file("t.leaves", "@rate 10\nT/Look = R0 S\n"), "--set",
+                        "found=true", "--clock", "virtual", "--view", "none", "--record", run})
+              .code == 0);
+  const std::string text = run_lockstep({"log", "scenario", run}).out;
+  CHECK(contains(text, R"(<set key="found" value="true" tick="0"/>)"));
+  CHECK(contains(text, R"(does="R0 S"/>)"));
+}
+
 TEST_CASE("a leaf does not write what is no value of its port in the scenario") {
   const std::string text =
       scenario_of({R"(<Sequence><Script code="found := 'x'"/><Action ID="Look" found="{found}"/>

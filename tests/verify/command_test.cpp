@@ -196,6 +196,43 @@ TEST_CASE("times of an entry that nothing writes have no more states than those 
   }
 }
 
+TEST_CASE("an output that its entry does not take is a fault, also where nothing reads the entry") {
+  const TemporaryDirectory directory;
+  const auto verified = [&](const std::string& start) {
+    const std::string tree = directory.file(
+        "tree.xml", R"(<root BTCPP_format="4" main_tree_to_execute="M"><BehaviorTree ID="M">
+<SubTree ID="S" ok=")" + start +
+                        R"("/></BehaviorTree><BehaviorTree ID="S"><Action ID="A" ok="{ok}"/>
+</BehaviorTree><TreeNodesModel><Action ID="A"><output_port name="ok" type="int"/></Action>
+</TreeNodesModel></root>)");
+    return run_lockstep({"verify", tree, "--mock", "--out", directory.path(".")}).out;
+  };
+  CHECK(contains(verified("no"), "tree.xml:2:62) sets an output that its entry does not take"));
+  CHECK(contains(verified("5"), "verified for all behaviors"));
+}
+
+TEST_CASE("Repeat and Retry end where an entry gives fewer rounds than are done") {
+  const TemporaryDirectory directory;
+  const auto outcome = [&](const std::string& node, const std::string& last) {
+    const std::string tree =
+        directory.file("tree.xml",
+                       "<root lockstep=\"1\"><BehaviorTree ID=\"M\"><Sequence memory=\"true\">"
+                       "<Script code=\"n := 0; k := 3\"/><" +
+                           node +
+                           "=\"{k}\"><Sequence memory=\"true\">"
+                           "<Script code=\"n += 1; k = n == 2 ? 1 : k\"/>" +
+                           last + "</Sequence></" + node.substr(0, node.find(' ')) +
+                           "></Sequence></BehaviorTree></root>");
+    CHECK(contains(
+        run_lockstep({"verify", tree, "--states", "1000", "--out", directory.path(".")}).out,
+        "verified for all behaviors"));
+    return run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--max-ticks", "20"})
+        .code;
+  };
+  CHECK(outcome("Repeat times", "<AlwaysSuccess/>") == 0);
+  CHECK(outcome("Retry attempts", "<AlwaysFailure/>") == 1);
+}
+
 TEST_CASE("a tree without findings is verified, with what is assumed") {
   const TemporaryDirectory directory;
   const Outcome it = run_lockstep(

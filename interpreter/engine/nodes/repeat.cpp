@@ -34,7 +34,9 @@ Status tick_repeat(NodeContext& context, NodeIndex self) {
   const Status status = context.tick(self + 1);
   if (status != kGoOn) return status;
   ++state.done;
-  return state.done == context.parameter(self, kTimes).integer ? kGoOn : Status::Running;
+  // An entry may give fewer rounds than are done.
+  const std::int64_t times = context.parameter(self, kTimes).integer;
+  return times != kForever && state.done >= times ? kGoOn : Status::Running;
 }
 
 double progress_of_repeat(NodeContext& context, NodeIndex self) {
@@ -44,7 +46,7 @@ double progress_of_repeat(NodeContext& context, NodeIndex self) {
   // A child that has just succeeded is already counted as done.
   const double current = context.status(self + 1) == Status::Running ? child : 0.0;
   const auto done = static_cast<double>(context.state<RepeatState>(self).done);
-  return (done + current) / static_cast<double>(times);
+  return std::min(1.0, (done + current) / static_cast<double>(times));
 }
 
 // How often does not matter for ever.
