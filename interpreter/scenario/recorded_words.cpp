@@ -483,8 +483,11 @@ std::optional<NodeIndex> timed_node(const Tree& tree) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const NodeType& type = *tree.labels[node].type;
     if (type.leaf != nullptr || type.parameters.empty()) continue;
-    const std::string_view unit = type.parameters.front().unit;
-    if (unit == "s" || unit == "ms") return node;
+    const Parameter& first = type.parameters.front();
+    // A WaitUntil may have no timeout.
+    const bool has_time = first.required || tree.nodes[node].kind->reads_entries ||
+                          tree.cells[tree.nodes[node].params].number != 0;
+    if (has_time && (first.unit == "s" || first.unit == "ms")) return node;
   }
   return std::nullopt;
 }
@@ -519,6 +522,10 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
       ticks = tick->tick + 1;
     }
     words.ticks = ticks;
+    if (ticks == 0 && reader.outcome().error.empty()) {
+      words.outcome.error = fmt::format("'{}' has no tick: a scenario needs one", path);
+      return words;
+    }
     if (reader.end()) {
       words.result = reader.end()->result;
       maker.take_fault(reader.end()->fault);

@@ -125,6 +125,23 @@ TEST_CASE("a leaf that puts an entry back writes it in the scenario") {
   CHECK(contains(text, R"(does="S[found=true]*3"/>)"));
 }
 
+TEST_CASE("only what counts a time is said to take a tick more on the wall clock") {
+  const TemporaryDirectory directory;
+  const auto notes = [&](const std::string& node) {
+    const std::string tree =
+        directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence memory="true">
+<Script code="n := 0"/>)" + node + "</Sequence></BehaviorTree></root>");
+    const std::string run = directory.path("run.jsonl");
+    REQUIRE(run_lockstep({"run", tree, "--rate", "200", "--view", "none", "--record", run}).code ==
+            0);
+    return run_lockstep({"log", "scenario", run}).err;
+  };
+  const std::string more = "may take a tick more than here";
+  CHECK(contains(notes(R"(<Wait seconds="0.01"/>)"), more));
+  CHECK(contains(notes(R"(<WaitUntil code="n == 0" timeout="1"/>)"), more));
+  CHECK(notes(R"(<WaitUntil code="n == 0"/>)").empty());
+}
+
 TEST_CASE("a start value is no write of a leaf in the scenario") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T">
