@@ -40,11 +40,6 @@ struct Asked {
   }
 };
 
-int refuse(const Problem& why) {
-  print_error(why.message, why.hint);
-  return kExitUsage;
-}
-
 // `more`: how many there are beside these.
 Result<std::vector<Asked>> questions_of(const ReachableRun& run, std::uint64_t& more) {
   auto text = ask_run(run.socket, std::string(kListQuestions));

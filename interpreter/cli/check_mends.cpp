@@ -45,10 +45,7 @@ class FileMending {
       if (!mend_one(checked)) break;
     }
     if (text_ == original_) return kExitSuccess;
-    if (const auto done = replace_text(path_, original_, text_); !done) {
-      print_error(done.error().message, done.error().hint);
-      return kExitUsage;
-    }
+    if (const auto done = replace_text(path_, original_, text_); !done) return refuse(done.error());
     messages().say(told_);
     return kExitSuccess;
   }

@@ -50,6 +50,11 @@ void print_error(std::string_view message, std::string_view hint) {
   print(Severity::Error, message, hint);
 }
 
+int refuse(const Problem& problem) {
+  print_error(problem.message, problem.hint);
+  return kExitUsage;
+}
+
 void print_note(std::string_view message, std::string_view hint) {
   print(Severity::Note, message, hint);
 }

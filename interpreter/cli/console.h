@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/core/diagnostics.h"
+#include "base/core/problem.h"
 
 namespace lockstep::host {
 
@@ -16,6 +17,8 @@ bool is_terminal(int file);
 bool wants_color(int file);
 
 void print_error(std::string_view message, std::string_view hint = {});
+// Prints it. Returns kExitUsage.
+int refuse(const Problem& problem);
 void print_note(std::string_view message, std::string_view hint = {});
 
 // Those of at least this severity, sorted, and how many errors there are when more than one.

@@ -616,10 +616,7 @@ int run(RunCommandOptions options) {
     return kExitUsage;
   }
   auto sockets = listen_for_watchers(options, loaded->definition);
-  if (!sockets) {
-    print_error(sockets.error().message, sockets.error().hint);
-    return kExitUsage;
-  }
+  if (!sockets) return refuse(sockets.error());
   if (!options.leaves.empty()) leaves.take_over(loaded->definition);
   TreeIdentity identity;
   if (!options.keep.file.empty()) identity = identity_of_run(options, *loaded);

@@ -116,10 +116,7 @@ int play(const ReplayOptions& options, RecordingReader& reader) {
 
 int serve(const ReplayOptions& options) {
   auto socket = listen_for_monitor(*options.monitor);
-  if (!socket) {
-    print_error(socket.error().message, socket.error().hint);
-    return kExitUsage;
-  }
+  if (!socket) return refuse(socket.error());
   if (!socket->is_loopback) {
     print_error(fmt::format("--monitor: '{}' can be reached from other machines", *options.monitor),
                 "lockstep log page FILE --out PAGE.html makes a page that can be sent there");

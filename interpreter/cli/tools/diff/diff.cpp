@@ -62,10 +62,7 @@ class Side {
     }
     if (!given_.revision) return kExitSuccess;
     auto files = GitFiles::read(*given_.revision, given_.path);
-    if (!files) {
-      print_error(files.error().message, files.error().hint);
-      return kExitUsage;
-    }
+    if (!files) return refuse(files.error());
     files_.emplace(std::move(*files));
     return kExitSuccess;
   }

@@ -22,18 +22,13 @@ struct LogScenarioOptions {
   PluginOptions plugins;
 };
 
-int told_problem(const Problem& why) {
-  print_error(why.message, why.hint);
-  return kExitUsage;
-}
-
 int write_scenario(const LogScenarioOptions& options, const RecordingHeader& header) {
   const RecordedTree recorded(header, options.tree, options.plugins);
   if (recorded.code() != kExitSuccess) return recorded.code();
   const ScenarioTree of{recorded.file(), recorded.main(), header.id};
   const auto tree = options.save.empty() ? Result<std::string>(std::string())
                                          : tree_in_scenario_file(options.save, of);
-  if (!tree) return told_problem(tree.error());
+  if (!tree) return refuse(tree.error());
   const RecordedWords words = read_recorded_words(options.file, recorded.tree());
   if (const int code = report_end(words.outcome); code != kExitSuccess) return code;
   const std::string name =
@@ -45,10 +40,10 @@ int write_scenario(const LogScenarioOptions& options, const RecordingHeader& hea
       words, {.name = name, .comments = words.notes, .tree = *tree, .main = recorded.main()});
   if (!options.save.empty()) {
     const auto saved = add_to_scenario_file(options.save, of, text);
-    return saved ? kExitSuccess : told_problem(saved.error());
+    return saved ? kExitSuccess : refuse(saved.error());
   }
   const auto file = scenario_file(recorded.file(), text);
-  return file ? write_results(*file) : told_problem(file.error());
+  return file ? write_results(*file) : refuse(file.error());
 }
 
 int scenario(const LogScenarioOptions& options) {

@@ -34,11 +34,6 @@ Result<void> check_not_built_in(std::string_view id) {
   return {};
 }
 
-int refuse(const Problem& problem) {
-  print_error(problem.message, problem.hint);
-  return kExitUsage;
-}
-
 int make_files(const NewFiles& files, bool is_dry_run, std::span<const std::string> next) {
   const auto made = is_dry_run ? check_free(files) : write_new(files);
   if (!made) return refuse(made.error());

@@ -41,7 +41,6 @@ Result<void> check_not_built_in(std::string_view id);
 
 // Prints the commands to type next, on stderr.
 void print_next(std::span<const std::string> lines);
-int refuse(const Problem& problem);
 // Writes the files unless it is a dry run, lists them on stdout, and prints the commands to type
 // next on stderr.
 int make_files(const NewFiles& files, bool is_dry_run, std::span<const std::string> next);
