@@ -36,7 +36,8 @@ class BoundParameters {
   const std::string* text(NodeIndex node, unsigned index) const;
   // No entry gives a parameter of the node.
   bool are_constant(NodeIndex node) const { return !nodes_[node].kind->reads_entries; }
-  // Nothing in the tree writes these entries, either. For a fold: somebody outside may do so.
+  // As above, or no node of the tree writes these entries. Only for a fold, since a person may
+  // write them.
   bool are_fixed(NodeIndex node) const;
 
   // Stores the entries of a node's parameters that were written. Returns "" or the error in a

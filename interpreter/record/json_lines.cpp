@@ -230,7 +230,9 @@ void add_value(std::string& text, std::uint32_t entry, const std::string* value)
   text += ']';
 }
 
-void add_entry(std::string& text, const EntryChange& it) { add_value(text, it.entry, it.text); }
+void add_entry(std::string& text, const EntryChange& it) {
+  add_value(text, it.entry, it.text);
+}
 
 void add_log(std::string& text, const LeafLine& log) {
   text += '[';

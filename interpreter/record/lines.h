@@ -269,16 +269,16 @@ constexpr Field kTickFields[] = {
      "only if there are any: {} for each fault of a leaf that counted as its Failure, so that the "
      "run continued. A message has at most 4096 bytes"},
     {"entries", "EntryValue[]", kMaybe,
-     "only if there are any: {} for each entry whose value differs from the line before, or that is "
-     "in `given`; the value is text, as in a tree. "
+     "only if there are any: {} for each entry whose value differs from the line before, and for "
+     "each of `given`. The value is text, as in a tree. "
      "`null`: a value longer than 256 bytes was written"},
     {"set", "Index[]", kMaybe,
      "only if there are any: those of `entries` that were written between the tick before and this "
      "one, such as by `<set>` of a scenario, in the monitor or by a program that embeds lockstep. "
      "The tree may have written them again in the tick"},
     {"given", "EntryValue[]", kMaybe,
-     "only if there are any: {} for each of `set` that the tick has written again. The value is the "
-     "one that came from outside; `entries` has that after the tick"},
+     "only if there are any: {} for each of `set` that the tick has written again, with what came "
+     "from outside; `entries` has the value after the tick"},
     {"logs", "LogLine[]", kMaybe,
      "only if there are any: {} for each line that a leaf logged since the line before: the path "
      "of the leaf or the name of its plugin (of a stall that is reported or ended in this tick: "

@@ -30,9 +30,8 @@ class GoldenUpdate {
                const ScenarioRunOptions& first, std::uint64_t runs)
       : runner_(runner), expected_(expected), first_(first), runs_(runs) {}
 
-  // Writes the first run if any differs from the recording, and all are the same. Else they cannot
-  // share it: then nothing is written, and `surprises` and `seed` are of the run that differs from
-  // the first one. True: it was written.
+  // Replaces the recording if a run differs from it and all runs are the same. Returns whether it
+  // did. If runs differ from each other, `surprises` and `seed` are of the first that does.
   bool run(std::vector<Surprise>& surprises, std::uint64_t& seed) const;
 
  private:

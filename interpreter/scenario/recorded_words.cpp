@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/core/any_value.h"
 #include "base/core/wording.h"
 #include "engine/writers.h"
 #include "judge/measure/entry_changes.h"
@@ -52,9 +53,11 @@ class WordMaker {
       auto& of_key = writers_.emplace_back();
       auto& by_script = setters_.emplace_back();
       std::string& initial = initial_.emplace_back();
+      std::string& start = starts_.emplace_back();
       const auto slot = std::ranges::find(tree.slots, key.key, &Slot::name);
       if (slot == tree.slots.end()) continue;
       initial = to_text(slot->initial);
+      start = start_of(*slot, initial);
       // Of a leaf whose plugin is not at hand, only the recording knows what is an output.
       if (names_writers) of_key = key.writers;
       for (const NodeIndex node : writers_of[static_cast<std::size_t>(slot - tree.slots.begin())]) {
@@ -125,12 +128,17 @@ class WordMaker {
   void find_changed(const RecordedTick& tick) {
     changed_.assign(header_.entries.size(), false);
     for (const RecordedEntry& it : tick.entries) {
-      const auto start = header_.values.find(header_.entries[it.entry].key);
-      const std::string& before =
-          start == header_.values.end() ? initial_[it.entry] : start->second;
-      changed_[it.entry] = tick.tick > 0 || it.value != before;
+      changed_[it.entry] = tick.tick > 0 || it.value != starts_[it.entry];
       values_[it.entry] = it.value;
     }
+  }
+
+  // As a recording has it: of an int, --set "+5" is 5.
+  std::string start_of(const Slot& slot, const std::string& initial) const {
+    const auto given = header_.values.find(slot.name);
+    if (given == header_.values.end()) return initial;
+    const auto value = value_from_outside(slot.typing == Typing::Any, slot.type, given->second);
+    return value ? to_text(*value) : given->second;
   }
 
   // Of an entry that was set from outside, what it was set to: the tree may have written it again.
@@ -475,7 +483,8 @@ class WordMaker {
   std::vector<bool> changed_;                       // of each entry: in this tick
   std::vector<Status> before_;                      // of each node, after the tick before
   std::set<Lacks> noted_;
-  std::vector<std::string> initial_;  // of each entry: what the tree gives it
+  // Of each entry: what the tree gives it, and what it had before the first tick.
+  std::vector<std::string> initial_, starts_;
 };
 
 // The first node of the language that is about a time, such as a Timeout.

@@ -36,7 +36,8 @@ class Certainties {
   }
 
  private:
-  // A node of a SubTree that is used twice is told only if it is so in both: by their places.
+  // A SubTree that is used twice has two nodes at one place of the file. Their faults are reported
+  // only if each tick of both is one.
   void look_for_faults() {
     std::set<std::uint32_t> more, told;
     for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
@@ -73,8 +74,8 @@ class Certainties {
     }
   }
 
-  // By a node around it or before it whose ticks are all faults, which is told of that node. For
-  // example, the child of a Sequence whose _while reads what is not there yet.
+  // Whether a node around it or before it, whose ticks are all faults, is why it gets no tick. For
+  // example, the child of a Sequence whose _while reads an entry without a value.
   bool is_kept_by_fault(NodeIndex node) const {
     const NodeIndex parent = tree_.labels[node].parent;
     if (faulty_.contains(parent)) return true;

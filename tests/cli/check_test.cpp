@@ -322,6 +322,23 @@ TEST_CASE("check warns of a branch that can never run") {
   CHECK(run_lockstep({"check", "--strict", dead}).code == 3);
 }
 
+TEST_CASE("check advises a condition in front of an action whose failure others mend") {
+  const TemporaryDirectory directory;
+  const auto hint = [&](const std::string& node) {
+    return run_lockstep({"check", "--mock",
+                         directory.file("t.xml",
+                                        "<root BTCPP_format=\"4\">"
+                                        "<BehaviorTree ID=\"M\"><" +
+                                            node +
+                                            "><Action ID=\"A\"/><Action ID=\"B\"/>"
+                                            "</" +
+                                            node + "></BehaviorTree></root>")})
+        .err;
+  };
+  CHECK(contains(hint("ReactiveFallback"), "put a condition before the action"));
+  CHECK(contains(hint("ReactiveSequence"), "put the action before this node"));
+}
+
 TEST_CASE("check --strict takes warnings for errors, and notes not") {
   const TemporaryDirectory directory;
   const std::string fine = directory.file("fine.xml", tree_text("<Advance/>"));

@@ -155,6 +155,11 @@ TEST_CASE("a start value is no write of a leaf in the scenario") {
   const std::string text = run_lockstep({"log", "scenario", run}).out;
   CHECK(contains(text, R"(<set key="found" value="true" tick="0"/>)"));
   CHECK(contains(text, R"(does="R0 S"/>)"));
+  // The recording has it as the entry does.
+  REQUIRE(run_lockstep({"run", tree, "--leaves", directory.path("t.leaves"), "--set", "found=1",
+                        "--clock", "virtual", "--view", "none", "--record", run})
+              .code == 0);
+  CHECK(contains(run_lockstep({"log", "scenario", run}).out, R"(does="R0 S"/>)"));
 }
 
 TEST_CASE("a leaf does not write what is no value of its port in the scenario") {

@@ -462,7 +462,7 @@ class Converter {
     add_attribute(token, "code", converted.code);
   }
 
-  // What is a text there may be a number here, with which a script goes on: n := 0,
+  // What is a text there may be a number here, which a script then uses. For example, n := 0,
   // SetBlackboard n="1", n += 1.
   void warn_of_text(Place place, std::string_view what, const EntryTypes::Found& entry) const {
     if (!entry.has_number || entry.has_port || report_.counted_only(Severity::Warning)) return;

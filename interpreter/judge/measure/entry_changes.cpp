@@ -82,8 +82,10 @@ std::span<const EntryChange> EntryChanges::changes(std::span<const Entry> entrie
     // A text that is too long may be another value, so it is shown each time it is written.
     const bool is_short = put_short(entry.value(), watched.next);
     // For example, a button: it was set to true, and the tree has put it back to false.
-    const bool is_written_again =
-        watched.is_set && !(is_short && watched.has_given && watched.next == watched.given);
+    // Two texts that are too long may be the same.
+    const bool is_other =
+        is_short ? !watched.has_given || watched.next != watched.given : watched.has_given;
+    const bool is_written_again = watched.is_set && is_other;
     const bool is_same = is_short && watched.has_text && watched.next == watched.text;
     if (is_same && !is_written_again) {
       watched.writes = entry.changes();

@@ -33,13 +33,15 @@ RunPackets::RunPackets(Shape shape, RunDescription run)
       delta_(shape_),
       slots_(slots_of(shape_, run_.entries)),
       entries_(slots_) {
+  constexpr std::size_t kTimesInLine = 3;  // an entry: in `entries`, `given` and `whole`
   std::size_t more = delta_.most_succeeded() + repeating_nodes(shape_).size();
   for (NodeIndex index = 0; index < shape_.nodes.size(); ++index) {
     const ShapeNode& node = shape_.nodes[index];
     if (is_robot(shape_, index)) ++more;
     more += node.members.size() + (node.paces ? node.held().size() : 0);
   }
-  line_end_.reserve(json_lines::most_of_tick_end(shape_.nodes.size(), more, 2 * slots_.size()));
+  line_end_.reserve(
+      json_lines::most_of_tick_end(shape_.nodes.size(), more, kTimesInLine * slots_.size()));
 }
 
 std::string RunPackets::header(const RunStart& start) const {

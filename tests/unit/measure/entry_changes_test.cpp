@@ -98,6 +98,26 @@ TEST_CASE("entries: what a tick writes again has the value that came from outsid
   CHECK(given(std::nullopt, 0.25).empty());
 }
 
+TEST_CASE("entries: of values that are too long, it is not known whether they were written again") {
+  Tree tree = tree_from_text("ParallelAbsolute[barriers={plan}](a)");
+  Blackboard board{tree};
+  EntryChanges changes({0});
+  changes.begin(board.entries);
+  const std::vector<double> all(300, 0.5);
+  board.entries[0].assign(Value(all));
+  changes.before_tick(board.entries);
+  const auto found = changes.changes(board.entries);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].is_set);
+  CHECK(found[0].text == nullptr);
+  CHECK(!found[0].is_written_again);
+  board.entries[0].assign(Value(std::vector<double>{0.5}));
+  const auto short_again = changes.changes(board.entries);
+  REQUIRE(short_again.size() == 1);
+  CHECK(short_again[0].is_written_again);
+  CHECK(short_again[0].given == nullptr);
+}
+
 TEST_CASE("entries: only those that were asked for, numbered in their order") {
   WatchedBoard it;
   EntryChanges changes({1});
