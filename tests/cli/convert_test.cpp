@@ -729,6 +729,11 @@ TEST_CASE("convert warns of a fault that the other language may not have") {
                  "warning: each tick of 'Script' is a fault, whatever the leaves do: its code: "
                  "cannot assign 0 to 'ready', which has the type string [not-the-same]"));
   CHECK(errors("1", "ready = false").empty());
+  const Outcome in_result = run_lockstep(
+      {"convert", directory.file("tree.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="M">
+<Sequence><Script code="c := 1"/><SetBlackboard output_key="c" value="abc"/></Sequence>
+</BehaviorTree></root>)")});
+  CHECK(contains(in_result.err, "line 2 of the result: each tick of 'Script' is a fault"));
   const Outcome by_model = run_lockstep(
       {"convert", directory.file("tree.xml", R"(<root BTCPP_format="4" main_tree_to_execute="M">
 <BehaviorTree ID="M"><SubTree ID="T"/></BehaviorTree><BehaviorTree ID="T">

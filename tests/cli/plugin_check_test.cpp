@@ -100,6 +100,29 @@ TEST_CASE("plugin check: a leaf that ends its process is named, and the others a
   CHECK(contains(hung.out, ": its process ended with exit code 6"));
 }
 
+TEST_CASE("plugin check gives a fixed port a value of its range") {
+  const TemporaryDirectory directory;
+  const std::string program = directory.file("many.py", R"(#!/usr/bin/python3
+import json, sys
+print(json.dumps(dict(lockstep=1, leaves=[{"id": "S", "more_ports": ["x.*"], "ports": [
+    {"name": "k", "type": "int", "fixed": True, "min": 2, "max": 9}]}])), flush=True)
+for line in sys.stdin:
+    request = json.loads(line)
+    if request["do"] == "describe":
+        ports = [{"name": "x.%d" % i, "type": "double", "default": 0.0} for i in range(request["fixed"]["k"])]
+        print(json.dumps(dict(ports=ports)), flush=True)
+    elif request["do"] == "tick":
+        print(json.dumps(dict(leaf=request["leaf"], status="success")), flush=True)
+    elif request["do"] in ("create", "halt"):
+        print(json.dumps(dict(leaf=request["leaf"], done=True)), flush=True)
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const Outcome it = run_lockstep({"plugin", "check", program});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+  CHECK(contains(it.out, "ok    'S' with k=\"2\" has 3 ports"));
+}
+
 TEST_CASE(
     "plugin check and run: what a program describes wrongly is named, with the leaf and port") {
   const TemporaryDirectory directory;

@@ -682,10 +682,20 @@ TEST_CASE("a leaf with seconds has the progress of a Wait in each tick, at any r
   }
 }
 
+TEST_CASE("a finding without a run does not say that verify shows one") {
+  const std::string tree = R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence memory="true">
+    <AlwaysFailure/><AlwaysSuccess name="later"/></Sequence></BehaviorTree></root>)";
+  const Folder folder(R"(<scenario name="a" verify="yes"><expect result="failure"/></scenario>)",
+                      tree);
+  const Outcome it = folder.test();
+  CHECK(contains(it.out, "finding never-ticked/"));
+  CHECK(!contains(it.out, "shows a run to it"));
+}
+
 TEST_CASE("a Wait stops at a barrier of a tick, also at a rate whose period is rounded") {
   // One tick is 1/6 of the Wait: 0.2 s at 30 Hz as 0.6 s at 10 Hz.
-  const auto ticks_held = [](const std::string& rate, const std::string& first,
-                             const std::string& second) {
+  const auto waits = [](const std::string& rate, const std::string& first,
+                        const std::string& second) {
     const TemporaryDirectory directory;
     const std::string tree =
         directory.file("t.xml",
@@ -696,10 +706,10 @@ TEST_CASE("a Wait stops at a barrier of a tick, also at a rate whose period is r
     const Outcome it = run_lockstep(
         {"run", tree, "--rate", rate, "--clock", "virtual", "--view", "none", "--json"});
     INFO(it.out << it.err);
-    return parse_json(it.out)["synchronized_nodes"][0]["children"][0]["held_ticks"].get<int>();
+    return parse_json(it.out)["synchronized_nodes"][0]["children"][0]["waits"].get<int>();
   };
-  CHECK(ticks_held("30", "0.2", "1") == 24);
-  CHECK(ticks_held("10", "0.6", "3") == 24);
+  CHECK(waits("30", "0.2", "1") == 6);
+  CHECK(waits("10", "0.6", "3") == 6);
 }
 
 TEST_CASE("a row with the complete path of a leaf is about that leaf alone") {

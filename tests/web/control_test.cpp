@@ -137,6 +137,28 @@ TEST_CASE(
   CHECK(run_lockstep({"test", file}).code == 0);
 }
 
+TEST_CASE(
+    "a value before the first tick is said where it may give a type, and no tick is no scenario") {
+  const TemporaryDirectory directory;
+  const std::string run = directory.path("run.jsonl");
+  const auto recorded = [&](const char* order) {
+    Controlled it(directory,
+                  R"(<root BTCPP_format="4"><BehaviorTree ID="T"><Script code="k := 0.2"/>
+</BehaviorTree></root>)",
+                  {"--clock", "virtual", "--set", "k=0.1", "--record", run});
+    CHECK(it.order({{"do", "set"}, {"entry", "k"}, {"value", "7"}}).status == 204);
+    it.order({{"do", order}});
+    it.events().finish();
+    it.run().process().finish();
+    return run_lockstep({"log", "scenario", run});
+  };
+  CHECK(contains(recorded("resume").err,
+                 "'k' was set before the first tick: the scenario begins with that value"));
+  const Outcome none = recorded("halt");
+  CHECK(none.code == 3);
+  CHECK(contains(none.err, "has no tick: a scenario needs one"));
+}
+
 TEST_CASE("a breakpoint that is neither on nor off is refused") {
   Controlled it(kPull, {"--clock", "virtual", "--set", "pause=0.05"});
   const Response wrong =
