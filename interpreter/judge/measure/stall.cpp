@@ -109,17 +109,20 @@ Standstill StandingNodes::standstill(const Moment& moment, const Standing& at, N
   return found;
 }
 
-// It stands since its last node does.
+// It stands since its last node does. One of pools alone is circle_of_pools' to report.
 void StandingNodes::describe_circle(Standstill& circle) {
+  bool is_of_pools = true;
   for (std::size_t place = 0; place < circle.chain.links.size(); ++place) {
     const Standing* const it = find(circle.chain.links[place].node);
     if (it == nullptr) continue;
+    is_of_pools = false;
     circle.is_old = circle.is_old && it->is_over(limit_, circle.time);
     if (it->detector.since() < circle.since) continue;
     circle.head = place;
     circle.since = it->detector.since();
     circle.best = it->detector.best();
   }
+  circle.is_old = circle.is_old && !is_of_pools;
 }
 
 // The node that is to blame may be slow instead of standing still.

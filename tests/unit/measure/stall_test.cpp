@@ -155,5 +155,13 @@ TEST_CASE("members of pools alone that wait for each other are a standstill, rep
               "a=RS b=RS x=R y=R", 40, 0.55) == "Sequence@7 since 1;");
 }
 
+TEST_CASE("a synchronized node that waits for such members leaves the report to them") {
+  CHECK(watch("ParallelAbsolute[barriers=.5](Parallel(UseResources[pool=p resources=A keep=true]("
+              "Sequence[memory=true](a UseResources[pool=p resources=B keep=true](x)))"
+              " UseResources[pool=p resources=B keep=true](Sequence[memory=true](b "
+              "UseResources[pool=p resources=A keep=true](y)))) c) resources[name=p]",
+              "a=RS b=RS x=R y=R c+.25", 40, 0.55) == "Sequence@7 since 1;");
+}
+
 }  // namespace
 }  // namespace lockstep::host

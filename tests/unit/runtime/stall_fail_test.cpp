@@ -51,6 +51,16 @@ TEST_CASE("what is around the node reacts to its Failure") {
                    0.35) == "ParallelAbsolute@6;ParallelAbsolute@13;failure");
 }
 
+TEST_CASE("members of pools that wait for each other fail when they have for longer") {
+  // The synchronized node around them stands from tick 2 on, they from tick 5.
+  CHECK(stall_fail("ParallelAbsolute[barriers=.5](Parallel(UseResources[pool=p resources=A "
+                   "keep=true](Sequence[memory=true](a UseResources[pool=p resources=B "
+                   "keep=true](x))) UseResources[pool=p resources=B keep=true]("
+                   "Sequence[memory=true](b UseResources[pool=p resources=A keep=true](y)))) c)"
+                   " resources[name=p]",
+                   "a=RRRRRS b=RRRRRS x=R y=R c+.25", 40, 0.55) == "Parallel@11;failure");
+}
+
 TEST_CASE("a guard that fails for longer, and a leaf that fails again and again") {
   CHECK(stall_fail("ParallelAbsolute[barriers=.5 success_count=1 failure_count=2](g? b)",
                    "g=F b+.25", 40, 0.35) == "ParallelAbsolute@6;failure");
