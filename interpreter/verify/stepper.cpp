@@ -96,7 +96,7 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
 void Stepper::begin_combinations() {
   answers_.begin_state(from_.run, from_leaves_);
   rounds_.begin_state();
-  points_.begin_state(from_leaves_);
+  points_.begin_state(from_.run.activity, from_leaves_);
 }
 
 void Stepper::give(std::span<const LeafAnswer> answers) {

@@ -60,11 +60,16 @@ void TickPoints::find_parallels() {
   }
 }
 
-void TickPoints::begin_state(const std::vector<LeafState>& leaves) {
+void TickPoints::begin_state(const std::vector<Activity>& nodes,
+                             const std::vector<LeafState>& leaves) {
   ticks_ = hits_ = 0;
   looks_ = false;
   if (known_.size() > 0) known_.clear();
   if (!can_look_) return;
+  if (has_properties_) {
+    nodes_ran_.clear();
+    for (const Activity it : nodes) nodes_ran_.push_back(status_of(it) == Status::Running);
+  }
   ran_.clear();
   has_run_.assign(leaves.size(), 0);
   for (std::uint32_t leaf = 0; leaf < leaves.size(); ++leaf) {
@@ -168,6 +173,7 @@ void TickPoints::put_nodes(const Ticker& ticker, NodeIndex chooses) {
       const NodeIndex next = child_with(node, chooses);
       if (put_sure_to_end(ticker, node, next)) {
         put_kept(ticker, node + 1, next);
+        if (has_properties_) put(ends_moment(ticker, node + 1, next));
         halted_.emplace_back(node + 1, next);
         node = next;
         continue;
@@ -182,6 +188,23 @@ void TickPoints::put_nodes(const Ticker& ticker, NodeIndex chooses) {
     put_kept(ticker, node + 1, after);
     node = after;
   }
+}
+
+// The first of these children with whose halt a moment ends, as NodeContext::halt_range does it; 0
+// if there is none. A property looks at each moment. Nodes that are held are among kept_.
+NodeIndex TickPoints::ends_moment(const Ticker& ticker, NodeIndex first, NodeIndex last) const {
+  const auto is_new = [&](NodeIndex node) {
+    const NodeState it = NodeState::of(ticker.activity(node), ticker.ticked_so_far(node));
+    if (it.held() || !it.ticked() || it.status() == Status::Idle) return false;
+    return it.status() != Status::Running || nodes_ran_[node] == 0;
+  };
+  for (NodeIndex child = first; child != last; child = tree_.nodes[child].end) {
+    if (ticker.status(child) != Status::Running) continue;
+    for (NodeIndex node = child; node < tree_.nodes[child].end; ++node) {
+      if (is_new(node)) return child;
+    }
+  }
+  return 0;
 }
 
 void TickPoints::put_kept(const Ticker& ticker, NodeIndex first, NodeIndex last) {

@@ -28,8 +28,8 @@ class TickPoints {
   TickPoints(const Tree& tree, const LeafModels& models, const std::vector<bool>& watched,
              std::uint64_t few_ticks);
 
-  // Ticks of another state follow, in which these leaves ran.
-  void begin_state(const std::vector<LeafState>& leaves);
+  // Ticks of another state follow, in which these nodes and leaves ran.
+  void begin_state(const std::vector<Activity>& nodes, const std::vector<LeafState>& leaves);
   void begin_tick() {
     // Where points are all different, to look at them is in vain.
     const bool is_vain = known_.size() > kMostInVain && hits_ * kMostForHit < known_.size();
@@ -57,6 +57,7 @@ class TickPoints {
   NodeIndex child_with(NodeIndex node, NodeIndex inside) const;
   bool put_sure_to_end(const Ticker& ticker, NodeIndex node, NodeIndex next);
   bool is_halted_in_the_end(NodeIndex node) const;
+  NodeIndex ends_moment(const Ticker& ticker, NodeIndex first, NodeIndex last) const;
   void put_nodes(const Ticker& ticker, NodeIndex chooses);
   void put_kept(const Ticker& ticker, NodeIndex first, NodeIndex last);
   void put_node(const Ticker& ticker, NodeIndex node, bool is_in_its_tick);
@@ -71,11 +72,12 @@ class TickPoints {
   const LeafModels& models_;
   const std::uint64_t few_;
   bool can_look_, has_properties_;
-  std::vector<Words> words_;           // of each node
-  std::vector<NodeIndex> kept_;        // the nodes that count also below one that has completed
-  std::vector<std::uint32_t> ran_;     // leaves whose end a label tells
-  std::vector<std::uint8_t> has_run_;  // the same of each leaf
-  std::vector<bool> halts_only_;       // of each node: NodeKind::sure_to_end can be asked
+  std::vector<Words> words_;             // of each node
+  std::vector<NodeIndex> kept_;          // the nodes that count also below one that has completed
+  std::vector<std::uint32_t> ran_;       // leaves whose end a label tells
+  std::vector<std::uint8_t> has_run_;    // the same of each leaf
+  std::vector<std::uint8_t> nodes_ran_;  // of each node; for properties
+  std::vector<bool> halts_only_;         // of each node: NodeKind::sure_to_end can be asked
   // Of a point: the children of such nodes of which nothing but that matters.
   std::vector<std::pair<NodeIndex, NodeIndex>> halted_;
   std::uint64_t ticks_ = 0, hits_ = 0;

@@ -428,6 +428,7 @@ TEST_CASE("points of a tick at which the same follows change nothing in what is 
         "Parallel[success_count=2](a b Fallback(c? ForceFailure(d?)))",
         "Repeat[times=2](ForceSuccess(Parallel[success_count=1](Sequence[memory=true](a b) c d)))",
         "Retry[attempts=2](ParallelAbsolute[barriers=.5 failure_count=2 success_count=2](a b c))",
+        "Parallel[failure_count=1](b Fallback(a) c)",
         "Fallback(ParallelRelative[delta=.5](RunOnce(a) Cooldown[seconds=.3](b) c) d)",
         "Sequence(Fallback(c? d?) Retry[attempts=3](a) ForceSuccess(b))",
         "Sequence(Script[code=n:=0] Fallback(c? Script[code=n=1]) Fallback(d? Script[code=n=2]) "
@@ -436,7 +437,8 @@ TEST_CASE("points of a tick at which the same follows change nothing in what is 
     const auto verified = [&](std::uint64_t few) {
       return Verified(
           tree, R"(<leaf path="*" progress="grid:2"/>)", {.few_ticks = few}, 10,
-          {"never a.failure and b.running", "a.success leads to b.success", "sometimes a.success"});
+          {"never a.failure and b.running", "a.success leads to b.success", "sometimes a.success",
+           "after a.failure never a.failure"});
     };
     const Verified all = verified(kAllTicks), shared = verified(0);
     REQUIRE(all.found.is_complete());
