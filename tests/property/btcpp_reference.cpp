@@ -678,7 +678,10 @@ class Node {
   Status while_do_else() {
     const Status condition = children_[0]->execute();
     if (condition == Status::Running) return condition;
-    if (condition == Status::Skipped) throw Failed("a condition was skipped");
+    if (condition == Status::Skipped) {
+      reset_children();  // a TryCatch may tick a leaf when it is halted
+      throw Failed("a condition was skipped");
+    }
     const std::size_t branch = condition == Status::Success ? 1 : 2, other = 3 - branch;
     if (other < children_.size()) children_[other]->reset();
     if (branch == children_.size()) return end(Status::Failure);

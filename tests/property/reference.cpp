@@ -664,8 +664,11 @@ class Rate : public ReferenceNode {
   void keep(KeptState& state) override {
     ReferenceNode::keep(state);
     state(result_);
-    state.moment(start_);
+    if (!paused || plan.wall_clock) return state.moment(start_);
+    Nanoseconds counted = paused_at_ - start_;  // it stands while the node is held
+    state.duration(counted);
     state.moment(paused_at_);
+    start_ = paused_at_ - counted;
   }
 
  private:

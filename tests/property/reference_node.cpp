@@ -83,7 +83,10 @@ void ReferenceNode::run(const char* hook) const {
 // node around it, or by the member of a barrier or a pool.
 bool ReferenceNode::is_withheld() const {
   const ReferenceNode* held = this;
-  while (held->parent != nullptr && held->parent->paused) held = held->parent;
+  const auto is_held = [](const ReferenceNode* node) {
+    return node != nullptr && node->paused && !node->in_tick;
+  };
+  while (is_held(held->parent)) held = held->parent;
   const ReferenceNode* const holder = held->parent;
   if (holder == nullptr) return false;
   const bool compares =

@@ -79,7 +79,12 @@ Status ScriptedRun::tick_root(Nanoseconds now) {
   ++tree_tick_;
   plugin_nodes_.time.now = now;
   Status status = ticker_.tick_root(now);
-  while (ticker_.take_request() && status == Status::Running) status = ticker_.tick_root_again();
+  // Some trees for BehaviorTree.CPP ask again and again. Run ends there with an error.
+  constexpr int kMostTicksAtOnce = 1000;
+  for (int ticks = 1; ticks < kMostTicksAtOnce; ++ticks) {
+    if (!ticker_.take_request() || status != Status::Running) break;
+    status = ticker_.tick_root_again();
+  }
   return status;
 }
 
