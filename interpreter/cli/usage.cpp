@@ -63,11 +63,8 @@ std::string owners_hint(const CLI::App& program, const std::string& option) {
   std::vector<const CLI::App*> owners;
   find_owners(program, option, owners);
   if (owners.empty()) return {};
-  std::string names;
-  for (std::size_t i = 0; i < std::min(owners.size(), kMostNamed); ++i) {
-    names += fmt::format("{}`{}`", i == 0 ? "" : ", ", command_line_of(*owners[i]));
-  }
-  if (owners.size() > kMostNamed) names += fmt::format(" and {} more", owners.size() - kMostNamed);
+  const std::string names = some_of(
+      owners, kMostNamed, [](const CLI::App* it) { return '`' + command_line_of(*it) + '`'; });
   return fmt::format("{} {} that option;", names, owners.size() == 1 ? "has" : "have");
 }
 

@@ -79,14 +79,8 @@ std::string details(const TreeDiff& diff, const TreeChange& change) {
 
 std::string also_text(const TreeChange& change) {
   if (change.also.empty()) return {};
-  std::vector<std::string> paths;
-  for (const std::string& it : change.also) {
-    if (paths.size() == kMostPaths) break;
-    paths.push_back(printable(it));
-  }
-  const std::size_t more = change.also.size() - paths.size();
-  return fmt::format("         also {}{}\n", joined(paths, ", "),
-                     more > 0 ? fmt::format(" and {} more", more) : "");
+  const auto text_of = [](const std::string& path) { return printable(path); };
+  return fmt::format("         also {}\n", some_of(change.also, kMostPaths, text_of));
 }
 
 std::string summary(const TreeDiff& diff) {

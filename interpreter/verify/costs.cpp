@@ -34,12 +34,7 @@ class CostFinder {
 
  private:
   std::string names(const std::vector<NodeIndex>& nodes) const {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(nodes.size(), kMostCostNames); ++i)
-      text += (i == 0 ? "" : ", ") + tree_.path(nodes[i]);
-    if (nodes.size() > kMostCostNames)
-      text += fmt::format(" and {} more", nodes.size() - kMostCostNames);
-    return text;
+    return some_of(nodes, kMostCostNames, [&](NodeIndex node) { return tree_.path(node); });
   }
 
   void add(double weight, std::string what, std::string remedy) {

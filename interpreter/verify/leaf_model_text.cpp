@@ -115,13 +115,8 @@ class Writer {
 
  private:
   std::string paths(const std::vector<std::size_t>& leaves) const {
-    std::vector<std::string> some;
-    for (const std::size_t leaf : leaves) {
-      if (some.size() == kMostPaths) break;
-      some.push_back(tree_.path(tree_.leaves[leaf].node));
-    }
-    const std::size_t more = leaves.size() - some.size();
-    return joined(some, ", ") + (more > 0 ? fmt::format(" and {} more", more) : "");
+    return some_of(leaves, kMostPaths,
+                   [&](std::size_t leaf) { return tree_.path(tree_.leaves[leaf].node); });
   }
 
   std::string row(const std::string& id) const {

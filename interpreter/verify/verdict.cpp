@@ -8,12 +8,9 @@
 
 #include "base/core/wording.h"
 #include "engine/synchronized.h"
-#include "judge/measure/stall.h"
-#include "judge/measure/wait_chain.h"
-#include "judge/summary/standstill_text.h"
 #include "run/cut_text.h"
-#include "run/live_moments.h"
 #include "verify/assumptions.h"
+#include "verify/explanation.h"
 #include "verify/fair_cycle.h"
 #include "verify/fixed_conditions.h"
 #include "verify/holds.h"
@@ -27,15 +24,6 @@ constexpr std::string_view kTrap = "trap", kTrapAfterCut = "trap-after-cut", kCy
                            kFault = "fault/", kOrder = "order/", kBarrierPassed = "barrier-passed/",
                            kDoneTwice = "done-twice/";
 
-constexpr std::size_t kMostNames = 6;
-
-std::string some_of(std::vector<std::string> names) {
-  if (names.empty()) return "none";
-  const std::size_t more = names.size() - std::min(names.size(), kMostNames);
-  names.resize(names.size() - more);
-  return joined(names, ", ") + (more == 0 ? "" : fmt::format(" and {} more", more));
-}
-
 class VerdictMaker {
  public:
   VerdictMaker(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
@@ -48,8 +36,8 @@ class VerdictMaker {
         cycles_(found.graph_of_cycles()),
         options_(options),
         held_(holdable(tree)),
-        deadlines_(options.rate),
-        tracer_(tree, models, properties, options.rate, found) {}
+        tracer_(tree, models, properties, options.rate, found),
+        explainer_(tree, tracer_, options.rate) {}
 
   Verdict make() {
     say_symmetry();
@@ -73,6 +61,9 @@ class VerdictMaker {
   }
   void say_good(std::string name, std::string text) {
     verdict_.facts.push_back({std::move(name), std::move(text), true});
+  }
+  void say_or_none(std::string name, const std::vector<std::string>& nodes) {
+    say(std::move(name), nodes.empty() ? "none" : some_of(nodes, kMostNamesInLine));
   }
   std::string at(NodeIndex node) const {
     const std::string place = options_.place ? options_.place(node) : "";
@@ -116,9 +107,10 @@ class VerdictMaker {
       if (found_.symmetry.first_like(first) != first) continue;
       std::vector<std::string> names;
       for (const auto& place : it.places) names.push_back(tree_.segment(place.node));
-      say("alike", fmt::format("{} of {}: they may do the same, so states in which they have "
-                               "changed places count once",
-                               some_of(names), tree_.path(tree_.labels[first].parent)));
+      say("alike",
+          fmt::format("{} of {}: they may do the same, so states in which they have "
+                      "changed places count once",
+                      some_of(names, kMostNamesInLine), tree_.path(tree_.labels[first].parent)));
     }
   }
 
@@ -216,7 +208,7 @@ class VerdictMaker {
                        ? "it can never end"
                        : fmt::format("after {}{} it can no longer end", counted(ticks, "tick"),
                                      cuts_before(state) > 0 ? " and a cut" : "");
-    trap.more = why_it_stands(trap);
+    trap.more = explainer_.why_it_stands(trap);
     if (!found_.store.keeps_hashes()) {
       const auto place = [&](NodeIndex node) { return at(node); };
       for (auto& line : false_for_ever(tree_, models_, tracer_, reached, place, options_.until)) {
@@ -259,69 +251,6 @@ class VerdictMaker {
     return path;
   }
 
-  // Says who waits for whom in the end, or what is done instead.
-  std::vector<std::string> why_it_stands(const Finding& finding) {
-    std::vector<std::string> lines = standstill_of(finding);
-    if (lines.empty()) lines.push_back(who_is_ticked(finding));
-    return lines;
-  }
-
-  // As a run would report it. Empty: nobody waits all the time.
-  std::vector<std::string> standstill_of(const Finding& finding) {
-    std::vector<std::string> lines;
-    const Shape shape = shape_of(tree_);
-    LiveMoments moments(tree_);
-    StallWatch watch(shape, deadlines_.at(1) / 2, [&](const Standstill& standstill) {
-      lines = standstill_lines(shape, standstill);
-    });
-    TracedRun run = finding.run;
-    if (finding.repeats) {
-      const std::size_t round = finding.round();
-      while (run.size() < *finding.repeats + 8) {
-        const TracedRun more(run.end() - static_cast<std::ptrdiff_t>(round), run.end());
-        run.insert(run.end(), more.begin(), more.end());
-      }
-    }
-    tracer_.play(run, [&](Stepper& stepper, Status status, std::size_t tick) {
-      if (status != Status::Running) return;
-      const Moment& moment = moments.after_tick(stepper.ticker(), tick, deadlines_.at(tick));
-      watch.after_tick(moment);
-      if (tick + 1 == run.size() && lines.empty()) lines = circle_of_a_pool(shape, moment);
-    });
-    // When it began is that of this one run.
-    for (std::string& line : lines) {
-      const auto since = line.find(" since ");
-      if (since == std::string::npos) continue;
-      const auto end = line.find(" s", since + 7);
-      if (end != std::string::npos) line.erase(since, end + 2 - since);
-    }
-    return lines;
-  }
-
-  // Members of a pool that wait for each other, each with what another one needs.
-  static std::vector<std::string> circle_of_a_pool(const Shape& shape, const Moment& moment) {
-    for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
-      if (!shape.nodes[node].is_pool() || !holds_somebody(shape, moment, node)) continue;
-      const WaitChain chain = wait_chain(shape, moment, node);
-      if (chain.obstacle == Obstacle::Circle) return wait_lines(shape, chain);
-    }
-    return {};
-  }
-
-  // The leaves that work in the cycle.
-  std::string who_is_ticked(const Finding& finding) {
-    std::set<std::string> worked;
-    tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
-      if (!finding.repeats || tick < *finding.repeats) return;
-      const auto marks = stepper.leaves().marks();
-      for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
-        if (marks[leaf].ticked) worked.insert(tree_.path(tree_.leaves[leaf].node));
-      }
-    });
-    if (worked.empty()) return "no leaf of a plugin gets ticks";
-    return "what gets ticks: " + some_of({worked.begin(), worked.end()});
-  }
-
   void look_for_cycles() {
     if (!models_.tree_ends) return;
     const EdgeFilter alive = [&](const Edge& edge) { return bool(can_end_[edge.to]); };
@@ -344,82 +273,10 @@ class VerdictMaker {
     Finding finding{.name = std::string(kCycle), .message = {}};
     add_lasso(cycle.front().from, cycle, finding);
     finding.message = "it may never end: a cycle of ticks may repeat indefinitely";
-    finding.more = standstill_of(finding);
-    finding.more.push_back(what_happens(finding));
+    finding.more = explainer_.standstill_of(finding);
+    finding.more.push_back(explainer_.what_happens(finding));
     say("always ends", "NO: a cycle of ticks may repeat indefinitely");
     verdict_.findings.push_back(std::move(finding));
-  }
-
-  std::string what_happens(const Finding& finding) {
-    std::vector<std::string> events;
-    tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
-      const std::size_t round = finding.round();
-      if (tick < *finding.repeats || tick >= *finding.repeats + round) return;
-      for (std::string& event : ends_in(stepper)) {
-        if (std::ranges::find(events, event) == events.end()) events.push_back(std::move(event));
-      }
-    });
-    return events.empty() ? who_is_ticked(finding) : "in it: " + some_of(events);
-  }
-
-  // The leaves that a tick ends, and how.
-  std::vector<std::string> ends_in(const Stepper& stepper) const {
-    const MomentsView moments = stepper.ticker().moments();
-    return moments.empty() ? ends_by_marks(stepper) : ends_in(moments, stepper);
-  }
-
-  // A leaf may end several times.
-  std::vector<std::string> ends_in(const MomentsView& moments, const Stepper& stepper) const {
-    std::vector<std::string> events;
-    const auto add = [&](NodeIndex node, std::string_view what) {
-      events.push_back(tree_.path(node) + ' ' + std::string(what));
-    };
-    std::vector<NodeState> before, moment;
-    for (const Activity it : stepper.before().run.activity) {
-      before.push_back(NodeState::of(it, false));
-    }
-    moments.each(moment, [&](std::span<const NodeState> now, const TickMoment&, bool) {
-      for (const LeafNode& leaf : tree_.leaves) {
-        const NodeState it = now[leaf.node];
-        const bool ran = before[leaf.node].status() == Status::Running;
-        if (it.ticked() && has_ended(it.status())) add(leaf.node, row_of(it.status()).counted);
-        if (ran && it.status() == Status::Idle) add(leaf.node, "is halted");
-      }
-      before.assign(now.begin(), now.end());
-    });
-    return events;
-  }
-
-  std::vector<std::string> ends_by_marks(const Stepper& stepper) const {
-    std::vector<std::string> events;
-    const auto marks = stepper.leaves().marks();
-    for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
-      if (!marks[leaf].ended) continue;
-      const std::string path = tree_.path(tree_.leaves[leaf].node);
-      events.push_back(has_ended(marks[leaf].result)
-                           ? path + ' ' + std::string(row_of(marks[leaf].result).counted)
-                           : path + " is halted");
-    }
-    return events;
-  }
-
-  // What a run does in its last tick, in which something is found.
-  std::string last_tick_of(const Finding& finding) {
-    std::vector<std::string> events;
-    bool is_end = false;
-    tracer_.play(finding.run, [&](Stepper& stepper, Status status, std::size_t tick) {
-      if (tick + 1 != finding.run.size()) return;
-      events = ends_in(stepper);
-      const auto marks = stepper.leaves().marks();
-      for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
-        if (!marks[leaf].ticked || marks[leaf].ended) continue;
-        events.push_back(tree_.path(tree_.leaves[leaf].node) + " runs");
-      }
-      is_end = status != Status::Running;
-    });
-    if (events.empty()) events.emplace_back("no leaf of a plugin gets ticks");
-    return fmt::format("in tick {}{}: {}", finding.run.size() - 1,
-                       is_end ? ", in which the run ends" : "", some_of(events));
   }
 
   // --- who is held -------------------------------------------------------------------------------
@@ -437,7 +294,7 @@ class VerdictMaker {
                 trail_for(child, endless->child, start));
       finding.message = fmt::format("{} may be held indefinitely by '{}'", at(child),
                                     tree_.labels[held_[i].holder].name);
-      finding.more = why_it_stands(finding);
+      finding.more = explainer_.why_it_stands(finding);
       verdict_.findings.push_back(std::move(finding));
     }
   }
@@ -527,7 +384,8 @@ class VerdictMaker {
                                    .node = node});
       node = tree_.nodes[node].end;
     }
-    names.empty() ? say_good("never ticked", "none") : say("never ticked", some_of(names));
+    names.empty() ? say_good("never ticked", "none")
+                  : say("never ticked", some_of(names, kMostNamesInLine));
   }
 
   void look_at_violations() {
@@ -578,7 +436,7 @@ class VerdictMaker {
       finding.run = run_to(it->second);
       finding.message = fmt::format("property '{}' is violated after {}", name,
                                     counted(it->second.ticks, "tick"));
-      finding.more.push_back(last_tick_of(finding));
+      finding.more.push_back(explainer_.last_tick_of(finding));
     } else {
       const std::size_t bit = cycles_.shape.owed_bit(number);
       const auto answered = answer(fmt::format("property '{}'", name), [&] {
@@ -608,9 +466,9 @@ class VerdictMaker {
       if (!found_.coverage.has_been(node, Status::Success)) no_success.push_back(tree_.path(node));
       if (!found_.coverage.has_been(node, Status::Failure)) no_failure.push_back(tree_.path(node));
     }
-    say("never succeeds", some_of(no_success));
-    say("never fails", some_of(no_failure));
-    if (!no_timeout.empty()) say("Timeouts that never fire", some_of(no_timeout));
+    say_or_none("never succeeds", no_success);
+    say_or_none("never fails", no_failure);
+    if (!no_timeout.empty()) say("Timeouts that never fire", some_of(no_timeout, kMostNamesInLine));
     for (const auto& it : found_.coverage.synchronized()) say_spread(it);
   }
 
@@ -637,7 +495,8 @@ class VerdictMaker {
     for (const double barrier : *all) {
       if (!it.limits.contains(barrier)) never.push_back(fmt::format("{:.6g}", barrier));
     }
-    if (!never.empty()) say("never the current barrier of " + name, some_of(never));
+    if (!never.empty())
+      say("never the current barrier of " + name, some_of(never, kMostNamesInLine));
   }
 
   // --- cuts --------------------------------------------------------------------------------------
@@ -668,7 +527,7 @@ class VerdictMaker {
       if (!is_used) unused.push_back(it.finding);
     }
     if (found_.is_complete() && !unused.empty()) {
-      say("accepted, but not found", some_of(unused));
+      say("accepted, but not found", some_of(unused, kMostNamesInLine));
     }
   }
 
@@ -684,8 +543,8 @@ class VerdictMaker {
   const Graph &graph_, &cycles_;
   const VerdictOptions& options_;
   const std::vector<Holdable> held_;
-  const Deadlines deadlines_;
   Tracer tracer_;
+  Explainer explainer_;
   std::vector<bool> can_end_;
   std::map<std::size_t, HoldOfChild> holds_;  // by the first child of those that are alike
   Verdict verdict_;

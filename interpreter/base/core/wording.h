@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,20 @@ std::string joined(const Items& items, std::string_view between) {
     text += fmt::format("{}{}", before, item);
     before = between;
   }
+  return text;
+}
+
+// "a, b and 3 more": the texts of `most` items at most.
+template <class Items, class TextOf = std::identity>
+std::string some_of(Items&& items, std::size_t most, TextOf text_of = {}) {
+  std::string text;
+  std::size_t count = 0;
+  for (auto&& item : items) {
+    if (++count > most) continue;
+    if (count > 1) text += ", ";
+    text += text_of(item);
+  }
+  if (count > most) text += " and " + std::to_string(count - most) + " more";
   return text;
 }
 
