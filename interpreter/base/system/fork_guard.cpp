@@ -11,7 +11,10 @@ namespace {
 
 constexpr std::size_t kSize = 4096;
 std::mutex g_bytes_lock;
-std::array<std::uint8_t*, kSize> g_free_bytes;  // of which there are so many:
+std::uint8_t* g_bytes = nullptr;  // kSize, the first of which is that of check()
+std::size_t g_used = 0;           // so many of them have been taken
+// Of these, what was given back. Not all at once in the beginning: that touches eight pages.
+std::array<std::uint8_t*, kSize> g_free_bytes;
 std::size_t g_free = 0;
 
 }  // namespace
@@ -22,7 +25,9 @@ void ForkGuard::arm(void (*in_child)()) {
   if (memory == MAP_FAILED || madvise(memory, kSize, MADV_WIPEONFORK) != 0) return;
   auto* const bytes = static_cast<std::uint8_t*>(memory);
   const std::scoped_lock lock(g_bytes_lock);
-  for (g_free = 0; g_free < kSize - 1; ++g_free) g_free_bytes[g_free] = bytes + 1 + g_free;
+  g_bytes = bytes;
+  g_used = 1;
+  g_free = 0;
   *bytes = kAlive;
   in_child_ = in_child;
   alive_ = bytes;
@@ -31,8 +36,13 @@ void ForkGuard::arm(void (*in_child)()) {
 ForkGuard::Byte::Byte() : byte_(&own_) {
   if (alive_ == &kAlive) return;
   const std::scoped_lock lock(g_bytes_lock);
-  if (g_free == 0) return;
-  byte_ = g_free_bytes[--g_free];
+  if (g_free > 0) {
+    byte_ = g_free_bytes[--g_free];
+  } else if (g_used < kSize) {
+    byte_ = g_bytes + g_used++;
+  } else {
+    return;
+  }
   set();
 }
 
