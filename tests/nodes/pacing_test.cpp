@@ -211,5 +211,20 @@ TEST_CASE("pacing: times in a slowed child are slow, too") {
   CHECK(ticks_of_slowed("Wait[seconds=2]", "") >= 98);
 }
 
+// It begins in tick 1, is slowed there, is held from tick 2 on, and gets its next tick in tick 8.
+TEST_CASE("pacing: a time by the wall clock goes on in a child that is slowed and then held") {
+  const auto status_of_leaf = [](const std::string& node) {
+    ScriptedRun run("ParallelAbsolute[barriers=.3;.4;.75 pace=true](a Sequence[memory=true](b " +
+                        node + "[seconds=.7 clock=wall](c)))",
+                    "a+.05*.2 b=R.3S c=R.05");
+    for (int tick = 0; tick < 8; ++tick) run.tick(tick * std::chrono::milliseconds(100));
+    REQUIRE(run.ticker().held(4));
+    run.tick(std::chrono::milliseconds(800));
+    return run.ticker().status(5);
+  };
+  CHECK(status_of_leaf("Timeout") == Status::Idle);
+  CHECK(status_of_leaf("Delay") == Status::Running);
+}
+
 }  // namespace
 }  // namespace lockstep::host::test

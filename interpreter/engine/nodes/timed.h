@@ -129,28 +129,37 @@ inline void fold(NodeContext& context, NodeIndex self) {
   count_from_now(context, self, true, from_seconds(context.parameter(self, kSeconds).number));
 }
 
+// For Timeout, Delay and Rate: with clock="wall" it also counts while the node is held or slowed.
+inline bool goes_on(NodeContext& context, NodeIndex self) {
+  return context.parameter(self, kClock).integer == kWall;
+}
+
 // For Timeout, Delay and a Rate that runs.
 inline void fold_by_clock(NodeContext& context, NodeIndex self) {
   fold::dead_when_idle(context, self);
   if (context.status(self) != Status::Running) return;
-  count_from_now(context, self, context.parameter(self, kClock).integer != kWall,
+  count_from_now(context, self, !goes_on(context, self),
                  from_seconds(context.parameter(self, kSeconds).number));
 }
 
 // For Timeout and Delay.
 template <bool kObeys>
 bool is_over_by_clock(NodeContext& context, NodeIndex self) {
-  const bool goes_on = context.parameter(self, kClock).integer == kWall;
-  if (!goes_on || context.first_tick(self)) count<kObeys>(context, self);
+  if (!goes_on(context, self) || context.first_tick(self)) count<kObeys>(context, self);
   return is_over(context, self);
 }
 
+inline void pause_paced_by_clock(NodeContext& context, NodeIndex self) {
+  goes_on(context, self) ? pause(context, self) : pause_paced(context, self);
+}
+
 // The same kind below a node that paces.
-inline NodeKind obeying_kind(const NodeKind& plain, Status (*tick)(NodeContext&, NodeIndex)) {
+inline NodeKind obeying_kind(const NodeKind& plain, Status (*tick)(NodeContext&, NodeIndex),
+                             void (*pause)(NodeContext&, NodeIndex) = pause_paced_by_clock) {
   NodeKind kind = plain;
   kind.tick = tick;
   kind.state_size = sizeof(PacedState);
-  kind.pause = pause_paced;
+  kind.pause = pause;
   kind.obeying = nullptr;
   return kind;
 }

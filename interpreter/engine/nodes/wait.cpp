@@ -47,7 +47,7 @@ const NodeKind kWait{.type = {.id = "Wait",
 
 namespace {
 const NodeKind kObeyingWait = [] {
-  NodeKind kind = timed::obeying_kind(kWait, tick_wait<true>);
+  NodeKind kind = timed::obeying_kind(kWait, tick_wait<true>, timed::pause_paced);
   kind.progress = progress_of_wait<true>;
   kind.taken_up = [](NodeContext& context, NodeIndex self) {
     return context.state<timed::PacedState>(self).factor;
