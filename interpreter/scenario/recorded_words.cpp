@@ -199,21 +199,11 @@ class WordMaker {
          EntryChanges::kLongest);
   }
 
-  // The entries that the recording leaves out, if its leaves may have written them, or if nothing
-  // in the tree gives them a value: then it came from outside.
+  // The entries that the recording leaves out. Each may have had a start value, or another one that
+  // was set, which the recording leaves out too.
   void note_not_recorded() {
-    std::set<std::uint32_t> written;
-    for (const Leaf& it : leaves_) {
-      if (it.words->empty()) continue;
-      each_output(it, [&](const Parameter&, std::uint32_t slot) { written.insert(slot); });
-    }
-    const auto writers_of = writers(tree_);
     std::vector<std::string_view> lacking;
-    for (std::uint32_t slot = 0; slot < tree_.slots.size(); ++slot) {
-      const Slot& it = tree_.slots[slot];
-      const bool is_from_outside =
-          writers_of[slot].empty() && std::holds_alternative<NoValue>(it.initial);
-      if (!written.contains(slot) && !is_from_outside) continue;
+    for (const Slot& it : tree_.slots) {
       const bool is_there =
           std::ranges::find(header_.entries, it.name, &ShapeEntry::key) != header_.entries.end();
       if (!is_there) lacking.push_back(it.name);
@@ -221,7 +211,7 @@ class WordMaker {
     if (lacking.empty()) return;
     words_.notes.push_back(
         fmt::format("the recording does not have the values of {}: what leaves wrote there, or "
-                    "others set, is not in the scenario",
+                    "others set, also by --set, is not in the scenario",
                     listed(lacking)));
   }
 

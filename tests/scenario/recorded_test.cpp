@@ -437,6 +437,14 @@ TEST_CASE("a value that the recording does not have is named in the scenario and
     const Outcome made = run_lockstep({"log", "scenario", run});
     CHECK(contains(made.err, lacks + "'k': what") == (entries == "none"));
   }
+  // A script writes it, from a start value.
+  const std::string counts = directory.file("counts.xml", R"(<root lockstep="1">
+<BehaviorTree ID="T"><Sequence><Script code="n := n + 1"/><Script code="m := m + 1"/></Sequence>
+</BehaviorTree></root>)");
+  REQUIRE(run_lockstep({"run", counts, "--clock", "virtual", "--view", "none", "--set", "n=7",
+                        "--set", "m=3", "--record", run, "--record-entries", "m"})
+              .code == 0);
+  CHECK(contains(run_lockstep({"log", "scenario", run}).err, lacks + "'n': what"));
 }
 
 TEST_CASE(
