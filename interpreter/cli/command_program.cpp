@@ -37,10 +37,14 @@ Program::Program(const std::vector<std::string>& words, Options options)
       "\n"
       "`lockstep help COMMAND` shows the options of a command and examples. `lockstep docs "
       "tutorial` is the tutorial, `lockstep docs glossary` defines the terms.");
+  const bool leaves_out = options == Options::OfNamedCommands;
+  const bool begins_with_command =
+      !words.empty() && std::ranges::find(commands(), words[0], &Command::name) != commands().end();
   for (const Command* command : commands()) {
-    CLI::App* subcommand = app_->add_subcommand(command->name, command->summary);
     const bool is_named = std::ranges::find(words, command->name) != words.end();
-    if (options == Options::OfNamedCommands && !is_named) continue;
+    if (leaves_out && !is_named && begins_with_command) continue;
+    CLI::App* subcommand = app_->add_subcommand(command->name, command->summary);
+    if (leaves_out && !is_named) continue;
     subcommand->footer(command->examples);
     actions_.emplace_back(subcommand, command->define(*subcommand));
   }

@@ -15,7 +15,8 @@ class App;
 namespace lockstep::host {
 
 // The options take longer to define than many a command takes, so those of commands that are not
-// named can be left out, but a hint may be about any of them.
+// named can be left out, and behind the name of a command the other commands, too. But a hint may
+// be about any of them.
 class Program {
  public:
   enum class Options { OfNamedCommands, OfAllCommands };
