@@ -27,12 +27,13 @@ inline constexpr double kMostReaction = 60;  // s
 
 // What a node that paces keeps of each child. At the start of an activation of the child: as new.
 struct PacedChild {
-  double begun = 0;    // the progress at the start of the activation
-  double at_full = 0;  // s at factor 1 in which it would have come so far
-  double counts = 1;   // the factor that counts: it falls as fast as a robot slows down
-  double told = 1;     // the factor that the node asks of it, if it asks anything
-  double rate = 0;     // 1/s at factor 1; 0: unknown
-  double given = kNoPace;
+  double begun = 0;        // the progress at the start of the activation
+  double at_full = 0;      // s at factor 1 in which it would have come so far
+  double counts = 1;       // the factor that counts: it falls as fast as a robot slows down
+  double told = 1;         // the factor that the node asks of it, if it asks anything
+  double rate = 0;         // 1/s at factor 1; 0: unknown
+  double asked = kNoPace;  // by this node
+  double given = kNoPace;  // with what comes from around it
 };
 
 // What such a node keeps beside that.

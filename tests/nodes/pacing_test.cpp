@@ -226,5 +226,26 @@ TEST_CASE("pacing: a time by the wall clock goes on in a child that is slowed an
   CHECK(status_of_leaf("Delay") == Status::Running);
 }
 
+// Its barrier asks nothing of a guard, so all that counts is what comes from around it. That falls
+// in tick 6, when `a` succeeds.
+TEST_CASE("pacing: a guard that is a member of a barrier gets what comes from around it") {
+  const auto first_tick_of_guard = [](const std::string& pace) {
+    ScriptedRun run(
+        "ParallelAbsolute[pace=true reaction=.1 barriers=1 hold=between](a Sequence[memory=true]("
+        "b SyncProgress[barrier=g](Delay[seconds=.35](c?))) SyncProgress[barrier=g](d)) "
+        "barrier[name=g barriers=.2;.6 hold=between" +
+            pace + "]",
+        "a=R.25R.35R.55R.65RS b=R.3R.55R.75R.85R.95S c=S d=R.1R.15R.25");
+    int tick = 0;
+    for (; tick < 30 && run.ticker().status(6) == Status::Idle; ++tick) {
+      run.tick(tick * std::chrono::milliseconds(100));
+    }
+    return tick;
+  };
+  const int alone = first_tick_of_guard("");
+  CHECK(alone > 10);
+  CHECK(first_tick_of_guard(" pace=true reaction=1") == alone);
+}
+
 }  // namespace
 }  // namespace lockstep::host::test

@@ -809,7 +809,7 @@ class Node {
   Status loop() {
     if (status_ == Status::Idle) rounds_ = 0;  // one that has completed goes on
     if (children_[0]->status_ != Status::Running) {
-      if (rounds_ == 3) return word(text("if_empty"));
+      if (rounds_ < 0 || rounds_ == 3) return word(text("if_empty"));
       Entry& entry = board_->make(*key_in(text("value")));
       entry.value = static_cast<double>(++rounds_);
       ++entry.writes;
@@ -832,7 +832,7 @@ class Node {
   void forget(Ended how) {
     since_.reset();
     is_over_ = is_open_ = false;
-    rounds_ = 0;
+    if (element_.tag != "LoopInt") rounds_ = 0;
     done_.clear();
     if (how == Ended::Halted && element_.tag != "SequenceWithMemory") at_ = 0;
   }
@@ -852,7 +852,8 @@ class Node {
   bool was_skipped_ = false, is_paused_ = false, was_ticked_ = false;
   std::size_t ticks_ = 0, at_ = 0, skipped_ = 0;
   unsigned seen_ = 0;
-  int rounds_ = 0, times_ = 0;
+  // Those of a LoopInt that has not begun are -1: after _successIf it is not idle, and has no list.
+  int rounds_ = element_.tag == "LoopInt" ? -1 : 0, times_ = 0;
   std::optional<int> since_;
   bool is_over_ = false, is_open_ = false;
   std::optional<Status> once_;

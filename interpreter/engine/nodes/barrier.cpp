@@ -290,7 +290,7 @@ Status tick_member(NodeContext& context, NodeIndex self) {
     // The larger of what comes from around it and of what its barrier asks: each of the two would
     // make strangers slow.
     PacedChild& pace = context.state<PacedChild>(self);
-    pace.given = std::max(context.pace(), pace.given);
+    pace.given = std::max(context.pace(), pace.asked);
     status = context.tick_at_pace(child, pace.given);
   } else {
     status = context.tick(child);

@@ -90,9 +90,9 @@ inline void learn(NodeContext& context, const Child& child, PacedChild& own, con
   own.rate = own.at_full > 0 && way > kProgressEpsilon ? way / own.at_full : 0.0;
 }
 
-// Finds PacedChild::told and ::given. `each(visit)` visits the children, save guards, with what is
-// kept of them. `asks`: the node asks for something in this tick. A child that is held keeps what
-// it was told.
+// Finds PacedChild::told, ::asked and ::given. `each(visit)` visits the children, save guards, with
+// what is kept of them. `asks`: the node asks for something in this tick. A child that is held
+// keeps what it was told.
 template <class Each>
 void set_factors(NodeContext& context, const Tick& tick, double given, bool asks, Each each) {
   double least_rate = std::numeric_limits<double>::infinity();
@@ -122,7 +122,8 @@ void set_factors(NodeContext& context, const Tick& tick, double given, bool asks
       factor = std::max(factor, kLeastFactor);
     }
     if (factor == 1.0 || std::abs(factor - own.told) >= kLeastChange * own.told) own.told = factor;
-    own.given = asks ? multiplied(given, own.told) : given;
+    own.asked = asks ? own.told : kNoPace;
+    own.given = multiplied(given, own.asked);
   });
 }
 
