@@ -134,6 +134,14 @@ TEST_CASE("breakpoints: when stdin ends, the run continues, and what cannot be i
   INFO(ended.err);
   CHECK(ended.code == 1);
   CHECK(contains(ended.err, "stdin has ended: the run continues\n"));
+  for (const char* stops :
+       {"--break arm --break carry:barrier", "--break arm --break-if base.held"}) {
+    const std::string err = typed(directory, "", stops).err,
+                      two = typed(directory, "c\\n", stops).err;
+    INFO(err + two);
+    CHECK(err.find("paused after tick") == err.rfind("paused after tick"));
+    CHECK(two.find("paused after tick") != two.rfind("paused after tick"));
+  }
   CHECK(contains(typed(directory, "", "--break ar").err, "no node 'ar'"));
   CHECK(contains(typed(directory, "", "--break arm:afte").err, "did you mean 'after'?"));
   CHECK(contains(typed(directory, "", "--break arm:barrier").err, "has no barriers and no delta"));

@@ -184,4 +184,9 @@ TEST_CASE("what a leaf model accepts and what a limit left out are not called pr
   const std::string limited = said({"--leaves", model, "--depth", "2"});
   CHECK(contains(limited, "  holds within the limit: open: never w.failure\n"));
   CHECK(!contains(limited, "  proved: "));
+  CHECK(
+      contains(run_lockstep({"run", tree, "--clock", "virtual", "--require-ticket", ticket,
+                             "--condition-age", "1"})
+                   .err,
+               "  not proved: --condition-wait, --condition-age: a condition of a program may be"));
 }

@@ -98,9 +98,7 @@ Prompt::Prompt(const Shape& shape, RunControl& control, const PausePlaces& place
       conditions_(places.conditions),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       questions_(questions) {
-  for (const Breakpoint& it : places.breakpoints) {
-    control_.give({.what = What::Break, .breakpoint = it});
-  }
+  for (const Breakpoint& it : places.breakpoints) set(it, true);
   thread_ = own_thread([this] { live(); });
 }
 
@@ -131,7 +129,7 @@ void Prompt::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
 
 void Prompt::after_tick(const Moment& moment, const TickReport&) {
   why_.after_tick(moment);
-  condition_ = conditions_.after_tick(moment);
+  condition_ = is_closed_ ? std::string_view() : conditions_.after_tick(moment);
   if (!condition_.empty()) control_.give({.what = What::Pause});
 }
 
@@ -149,6 +147,9 @@ void Prompt::standing(const Moment& moment) {
   if (!control_.is_paused()) return;
   {
     const Lock lock(mutex_);
+    const auto& reached = control_.reached();
+    picture.is_own = !condition_.empty() ||
+                     (reached && std::ranges::find(breakpoints_, *reached) != breakpoints_.end());
     picture_ = std::move(picture);
   }
   stands_ = true;
@@ -252,7 +253,7 @@ void Prompt::ask(const OpenQuestion& question) {
     const auto line = read_line(is_gone);
     if (!line) {
       if (is_over() || is_gone()) return;
-      is_closed_ = true;
+      close();
       return say("stdin has ended: `lockstep answer` answers from another terminal\n");
     }
     std::string_view word = *line;
@@ -279,16 +280,20 @@ void Prompt::ask(const OpenQuestion& question) {
 }
 
 void Prompt::ask(const Picture& picture) {
+  if (is_closed_) {  // who else pauses can also continue
+    if (picture.is_own) give(What::Resume);
+    return;
+  }
   if (picture.is_only_unattended) {
     say("Enter continues the run, q ends it\n");
   } else {
     say(fmt::format("paused {}\n{}", picture.where, picture.why));
   }
   while (true) {
-    if (!is_closed_ && !picture.is_only_unattended) {
+    if (!picture.is_only_unattended) {
       say("(c, s, w, p, set, b, d, q, or ? for help) ");
     }
-    const auto line = is_closed_ ? std::nullopt : read_line([this] { return !stands_.load(); });
+    const auto line = read_line([this] { return !stands_.load(); });
     if (line) {
       control_.give({.what = What::Attend});  // who types is there
       if (picture.is_only_unattended) return *line == "q" ? give(What::Halt) : void();
@@ -298,12 +303,10 @@ void Prompt::ask(const Picture& picture) {
     } else if (!stands_) {
       return say("\n");
     } else {
-      const bool is_new = !std::exchange(is_closed_, true);
+      close();
       if (picture.is_only_unattended) return;
-      // No command can come any more.
-      if (is_new) say("stdin has ended: the run continues\n");
-      control_.give({.what = What::Resume});
-      return;
+      say("stdin has ended: the run continues\n");
+      return give(What::Resume);
     }
   }
 }
@@ -381,7 +384,28 @@ void Prompt::obey_break(std::string_view words, bool is_on) {
     const Problem& it = breakpoint.error();
     return say(printable(it.hint.empty() ? it.message : it.message + "; " + it.hint) + "\n");
   }
-  control_.give({.what = What::Break, .breakpoint = *breakpoint, .is_on = is_on});
+  set(*breakpoint, is_on);
+}
+
+void Prompt::set(const Breakpoint& breakpoint, bool is_on) {
+  {
+    const Lock lock(mutex_);
+    std::erase(breakpoints_, breakpoint);
+    if (is_on) breakpoints_.push_back(breakpoint);
+  }
+  control_.give({.what = What::Break, .breakpoint = breakpoint, .is_on = is_on});
+}
+
+// No command can come any more, so nothing may wait for one.
+void Prompt::close() {
+  is_closed_ = true;
+  std::vector<Breakpoint> breakpoints;
+  {
+    const Lock lock(mutex_);
+    breakpoints = breakpoints_;
+  }
+  for (const Breakpoint& it : breakpoints)
+    control_.give({.what = What::Break, .breakpoint = it, .is_on = false});
 }
 
 void Prompt::give(What what, std::uint64_t ticks) {

@@ -59,6 +59,7 @@ class Prompt final : public Observer {
     std::string where;  // "after tick 31 (0.310 s): 'Main/grasp' failed"
     std::string why, entries;
     bool is_only_unattended = false;  // else somebody, or a breakpoint, has paused it
+    bool is_own = false;              // a breakpoint or a condition of this prompt has
   };
 
   void live();
@@ -72,6 +73,8 @@ class Prompt final : public Observer {
   // False: the run goes on.
   bool obey(std::string_view line, const Picture& picture);
   void obey_break(std::string_view words, bool is_on);
+  void set(const Breakpoint& breakpoint, bool is_on);
+  void close();
   void obey_set(std::string_view words);
   void give(RunControl::Order::What what, std::uint64_t ticks = 0);
   std::string where(const Moment& moment) const;
@@ -88,10 +91,11 @@ class Prompt final : public Observer {
   Mutex mutex_;
   std::optional<Picture> picture_ LOCKSTEP_GUARDED_BY(mutex_);
   bool is_over_ LOCKSTEP_GUARDED_BY(mutex_) = false;
+  std::vector<Breakpoint> breakpoints_ LOCKSTEP_GUARDED_BY(mutex_);
   std::uint64_t step_ = 1;  // ticks of the last s
   std::string rest_;        // read, and not used yet
   std::atomic<bool> stands_{false};
-  bool is_closed_ = false;  // stdin: nothing comes any more
+  std::atomic<bool> is_closed_{false};  // stdin: nothing comes any more
   const OpenQuestions* const questions_;
   std::optional<OpenQuestion> answered_;  // and the run has not taken that yet
   std::thread thread_;

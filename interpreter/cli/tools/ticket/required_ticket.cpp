@@ -40,6 +40,9 @@ std::vector<std::string> changes(const RunCommandOptions& options, const Ticket&
   if (options.stall_fail > 0) all.emplace_back("--stall-fail: a node that makes no progress fails");
   if (options.on_fault == FaultPolicy::Fail)
     all.emplace_back("--on-fault fail: after a fault of a leaf, the run continues");
+  if (options.load.plugins.condition_wait || options.load.plugins.condition_age)
+    all.emplace_back(
+        "--condition-wait, --condition-age: a condition of a program may be old, or Running");
   if (options.keep.resumes && ticket.cuts == 0)
     all.emplace_back("--resume: what a run does after a cut; lockstep verify --cuts 1 proves it");
   if (options.keep.resumes && ticket.cuts > 0 && options.keep.on_resume != ticket.on_resume)
