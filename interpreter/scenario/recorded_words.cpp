@@ -23,6 +23,7 @@
 #include "run/leaf_calls.h"
 #include "run/script_results.h"
 #include "scenario/ended_results.h"
+#include "tree/types/literal.h"
 
 namespace lockstep::host {
 namespace {
@@ -416,7 +417,9 @@ class WordMaker {
         } else if (is_value_of(port, *entry.value)) {
           word.written.emplace_back(port.name, *entry.value);
           const bool is_told = is_only && !is_shared(tick, entry.entry, it.leaf->node) &&
-                               !is_set_by_halt(tick, entry.entry, slot);
+                               !is_set_by_halt(tick, entry.entry, slot) &&
+                               !(is_text_of_number(port, slot, *entry.value) &&
+                                 is_put_back(tick, entry.entry, it, slot, is_only));
           if (is_told) return;
           note(Lacks::OtherValues,
                "'{}' may have been written several times in tick {}: only its last value is "
@@ -432,6 +435,13 @@ class WordMaker {
   // of the port.
   static bool is_value_of(const Parameter& port, const std::string& text) {
     return port.type == ValueType::Object || parse_value(port.type, text).has_value();
+  }
+
+  // A recording has the same text for 0 and '0'. In a tree for BehaviorTree.CPP, only one of them
+  // can be followed by n := 1. So it matters whether a script has written it, or the leaf has.
+  bool is_text_of_number(const Parameter& port, std::uint32_t slot, const std::string& text) const {
+    return port.type == ValueType::String && tree_.slots[slot].typing != Typing::Strict &&
+           literal_type(text) != ValueType::String;
   }
 
   // Entries that have changed and have their value again. A leaf may have put it back: found :=

@@ -479,6 +479,18 @@ TEST_CASE(
       note(R"(lockstep="1")", R"(<Sequence memory="true"><A o="{e}"/><Check code="e == 'x'"/>
 <B o="{f}"/></Sequence>)"),
       "several times"));
+  // The value of a script that has run before it, or the text '0' of the leaf.
+  const auto zero = [&](const std::string& value) {
+    const std::string tree = directory.file(
+        "t.xml",
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><Sequence><Script code=\"e := 0\"/>"
+        "<A o=\"{e}\"/></Sequence></BehaviorTree></root>");
+    run_lockstep({"run", tree, "--mock", "--clock", "virtual", "--view", "none", "--record", run,
+                  "--mock-leaf", "A=success:0", "--mock-output", "A.o=" + value});
+    return run_lockstep({"log", "scenario", run}).err;
+  };
+  CHECK(contains(zero("0"), often + "value is recorded, and 'T/Sequence/A' writes that"));
+  CHECK(!contains(zero("far"), often));
 }
 
 TEST_CASE("the scenario of a recording has rows for leaves only, and outputs only as outputs") {
