@@ -1,8 +1,6 @@
 // A tree of a program over lockstep/runtime.h, and the functions of tree.h.
 #pragma once
 
-#include <lockstep/runtime.h>
-
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "behaviortree_cpp/blackboard.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 #include "behaviortree_cpp/lockstep/program_nodes.h"
+#include "behaviortree_cpp/lockstep/runtime_calls.h"
 #include "behaviortree_cpp/lockstep/stand_in.h"
 #include "behaviortree_cpp/lockstep/tree.h"
 #include "behaviortree_cpp/lockstep/tree_watch.h"
@@ -365,25 +364,6 @@ LOCKSTEP_BTCPP_INLINE void Tree::applyVisitor(
 }
 LOCKSTEP_BTCPP_INLINE void Tree::applyVisitor(const std::function<void(TreeNode*)>& visitor) {
   for (const auto& node : lockstep_program().nodes()) visitor(node.get());
-}
-
-LOCKSTEP_BTCPP_INLINE std::vector<Blackboard::Ptr> BlackboardBackup(const Tree& tree) {
-  std::vector<Blackboard::Ptr> backup;
-  for (const auto& subtree : tree.subtrees) {
-    backup.push_back(Blackboard::create());
-    subtree->blackboard->cloneInto(*backup.back());
-  }
-  return backup;
-}
-LOCKSTEP_BTCPP_INLINE void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup,
-                                             Tree& tree) {
-  if (backup.size() != tree.subtrees.size()) {
-    throw LogicError("BlackboardRestore: the backup has ", std::to_string(backup.size()),
-                     " boards, the tree ", std::to_string(tree.subtrees.size()));
-  }
-  for (std::size_t i = 0; i < backup.size(); ++i) {
-    backup[i]->cloneInto(*tree.subtrees[i]->blackboard);
-  }
 }
 
 }  // namespace BT

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <lockstep/duration.h>
-#include <lockstep/runtime.h>
 
 #include <chrono>
 #include <functional>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "behaviortree_cpp/blackboard.h"
+#include "behaviortree_cpp/lockstep/runtime_calls.h"
 #include "behaviortree_cpp/tree_node.h"
 #include "behaviortree_cpp/utils/wakeup_signal.hpp"
 #include "behaviortree_cpp/utils/wildcards.hpp"
@@ -108,9 +108,27 @@ class Tree {
   std::shared_ptr<lockstep_detail::Program> program_;
 };
 
-// The entries of all boards of a tree, in the order of Tree::subtrees.
-[[nodiscard]] std::vector<Blackboard::Ptr> BlackboardBackup(const Tree& tree);
+// The entries of all boards of a tree, in the order of Tree::subtrees. Templates, so that only code
+// that calls them opens entries (opening_mark.h).
+template <class AnyTree>
+[[nodiscard]] std::vector<Blackboard::Ptr> BlackboardBackup(const AnyTree& tree) {
+  std::vector<Blackboard::Ptr> backup;
+  for (const auto& subtree : tree.subtrees) {
+    backup.push_back(Blackboard::create());
+    subtree->blackboard->cloneInto(*backup.back());
+  }
+  return backup;
+}
 // Throws when it is of a tree with other boards.
-void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup, Tree& tree);
+template <class AnyTree>
+void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup, AnyTree& tree) {
+  if (backup.size() != tree.subtrees.size()) {
+    throw LogicError("BlackboardRestore: the backup has ", std::to_string(backup.size()),
+                     " boards, the tree ", std::to_string(tree.subtrees.size()));
+  }
+  for (std::size_t i = 0; i < backup.size(); ++i) {
+    backup[i]->cloneInto(*tree.subtrees[i]->blackboard);
+  }
+}
 
 }  // namespace BT

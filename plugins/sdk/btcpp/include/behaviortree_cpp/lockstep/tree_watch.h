@@ -2,8 +2,6 @@
 // their statuses as the library has them, each change when it happens. Included by program.h.
 #pragma once
 
-#include <lockstep/runtime.h>
-
 #include <exception>
 #include <memory>
 #include <string>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "behaviortree_cpp/lockstep/program_nodes.h"
+#include "behaviortree_cpp/lockstep/runtime_calls.h"
 #include "behaviortree_cpp/lockstep/stand_in.h"
 
 namespace BT::lockstep_detail {

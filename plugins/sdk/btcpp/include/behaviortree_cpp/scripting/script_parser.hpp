@@ -2,8 +2,6 @@
 // in a tree or not.
 #pragma once
 
-#include <lockstep/runtime.h>
-
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "behaviortree_cpp/blackboard.h"
+#include "behaviortree_cpp/lockstep/runtime_calls.h"
 
 namespace BT {
 
