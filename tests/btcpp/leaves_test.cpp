@@ -66,6 +66,20 @@ TEST_CASE("leaves for BehaviorTree.CPP: the headers alone make a plugin, which c
   }
 }
 
+TEST_CASE("leaves for BehaviorTree.CPP: an error in a literal in JSON is what the converter says") {
+  const TemporaryDirectory directory;
+  const auto error = [&](const std::string& order) {
+    const std::string node = "<Deliver order='json:" + order + "'/>";
+    const Outcome outcome = run_tree(directory.file("t.xml", tree_of(node)), "words");
+    CHECK(outcome.code == 3);
+    CHECK(!contains(outcome.err, "convertFromString"));
+    return outcome.err;
+  };
+  CHECK(contains(error(R"({"name":"cup"})"), "key 'count' not found"));
+  CHECK(contains(error(R"({"name":"cup","count":"two"})"), "type must be number"));
+  CHECK(contains(error(R"({"name":"cup")"), "parse error"));
+}
+
 TEST_CASE("programs for BehaviorTree.CPP: they print what they print with the library") {
   int seen = 0;
   for (const auto& file :

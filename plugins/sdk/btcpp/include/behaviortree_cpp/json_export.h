@@ -128,9 +128,13 @@ class JsonExporter {
   ExpectedEntry lockstep_entry_as(const Json& json, std::type_index type) const {
     Entry entry;
     const lockstep_detail::JsonFunctions* const functions = lockstep_detail::find_json(type);
-    if (functions == nullptr || !functions->read || !functions->read(json.dump(), entry.first)) {
-      return nonstd::make_unexpected(
-          StrCat("it is no value of type ", lockstep_detail::readable(type)));
+    try {
+      if (!lockstep_detail::read_json(type, json.dump(), entry.first)) {
+        return nonstd::make_unexpected(
+            StrCat("it is no value of type ", lockstep_detail::readable(type)));
+      }
+    } catch (const RuntimeError& error) {
+      return nonstd::make_unexpected(std::string(error.what()));
     }
     entry.second = functions->type();
     return entry;
@@ -174,29 +178,16 @@ class JsonExporter {
   static void add_read(Read read_one) {
     using Json = lockstep_detail::Json<T>;
     functions_of<T>().read = [=](std::string_view text, Any& any) {
-      return reading(text, [&](const Json& json) {
-        T value{};
-        read_one(json, value);
-        any = Any(value);
-      });
+      T value{};
+      read_one(Json::parse(text), value);
+      any = Any(value);
     };
     functions_of<std::vector<T>>(true).read = [=](std::string_view text, Any& any) {
-      return reading(text, [&](const Json& json) {
-        std::vector<T> values;
-        for (const Json& it : json) read_one(it, values.emplace_back());
-        any = Any(values);
-      });
+      std::vector<T> values;
+      for (const Json& it : Json::parse(text)) read_one(it, values.emplace_back());
+      any = Any(values);
     };
     if (functions_of<T>().name.empty()) name<T>({});
-  }
-  template <class Read>
-  static bool reading(std::string_view text, Read read) {
-    try {
-      read(lockstep_detail::Json<Read>::parse(text));
-    } catch (const std::exception&) {
-      return false;
-    }
-    return true;
   }
 };
 

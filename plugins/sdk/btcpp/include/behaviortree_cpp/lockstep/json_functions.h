@@ -22,14 +22,14 @@ struct JsonFunctions {
   bool is_list = false;
   TypeInfo (*type)() = nullptr;
   std::function<std::string(const void* value)> write;
-  std::function<bool(std::string_view text, Any& value)> read;  // false: it is none
+  std::function<void(std::string_view text, Any& value)> read;  // throws: it is none
 };
 
 [[gnu::visibility("hidden")]] std::map<std::type_index, JsonFunctions>& json_functions();
 
 const JsonFunctions* find_json(std::type_index type);
 
-// False: the type has none, or the text is no value of it.
+// False: the type has none. Throws if the text is no value of it, and says why.
 bool read_json(std::type_index type, std::string_view text, Any& value);
 
 // Numbers and texts.

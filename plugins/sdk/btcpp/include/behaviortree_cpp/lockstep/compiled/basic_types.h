@@ -45,9 +45,8 @@ LOCKSTEP_BTCPP_INLINE const char* TextReader<const char*>::read(StringView text)
 LOCKSTEP_BTCPP_INLINE Any convertFromJSON(StringView text, std::type_index type) {
   Any value;
   if (!lockstep_detail::read_json(type, text, value)) {
-    throw RuntimeError("the JSON '", text, "' is no value of type ",
-                       lockstep_detail::readable(type),
-                       ", or that type is not registered with BT::RegisterJsonDefinition");
+    throw RuntimeError("the type ", lockstep_detail::readable(type),
+                       " is not registered with BT::RegisterJsonDefinition");
   }
   return value;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "behaviortree_cpp/exceptions.h"
 #include "behaviortree_cpp/lockstep/json_functions.h"
 
 namespace BT::lockstep_detail {
@@ -21,7 +22,14 @@ LOCKSTEP_BTCPP_INLINE const JsonFunctions* find_json(std::type_index type) {
 
 LOCKSTEP_BTCPP_INLINE bool read_json(std::type_index type, std::string_view text, Any& value) {
   const JsonFunctions* const functions = find_json(type);
-  return functions != nullptr && functions->read && functions->read(text, value);
+  if (functions == nullptr || !functions->read) return false;
+  try {
+    functions->read(text, value);
+  } catch (const std::exception& error) {
+    throw RuntimeError("the JSON '", text, "' is no value of type ", readable(type), ": ",
+                       error.what());
+  }
+  return true;
 }
 
 LOCKSTEP_BTCPP_INLINE std::string plain_json(const Any& value) {
