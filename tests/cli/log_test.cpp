@@ -85,6 +85,23 @@ TEST_CASE("log info sums up") {
   CHECK(!contains(outcome.out, "\x1b"));
 }
 
+TEST_CASE("log info: progress of a member of a pool does not fall where it begins again") {
+  const TemporaryDirectory directory;
+  const std::string member =
+      "<Repeat times=\"2\"><UseResources pool=\"p\" resources=\"a\"><Advance step=\"0.25\"/>"
+      "</UseResources></Repeat>";
+  const std::string tree =
+      directory.file("t.xml",
+                     "<root lockstep=\"1\"><plugin name=\"motion\"/><resources name=\"p\"/>"
+                     "<BehaviorTree ID=\"M\"><Parallel>" +
+                         member + member + "</Parallel></BehaviorTree></root>");
+  const std::string recording = directory.path("r.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", recording}).code == 0);
+  const std::string info = run_lockstep({"log", "info", recording}).out;
+  CHECK(contains(info, "M/p (resources, 16 ticks)"));
+  CHECK_FALSE(contains(info, " fell"));
+}
+
 TEST_CASE("log info tells why a run failed, in the words of the run") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(

@@ -55,13 +55,7 @@ Summary Statistics::summary() const {
                   .went_on = went_on_};
   faults_.append_to(summary.notes);
   summary.notes.insert(summary.notes.end(), progress_notes_.begin(), progress_notes_.end());
-  for (const MeasuredNode& node : nodes_) {
-    std::vector<std::string> paths;
-    for (const NodeIndex child : node.ticks.children()) {
-      paths.push_back(shape_.nodes[child].path);
-    }
-    append_fall_notes(node.measure.falls(), paths, summary.notes);
-  }
+  for (const MeasuredNode& node : nodes_) append_fall_notes(shape_, node, summary.notes);
   if (real_time_ && periods_.count() > 0) {
     summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),
                                    .p99 = to_seconds(periods_.quantile(0.99)),

@@ -250,13 +250,16 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
   return summary;
 }
 
-void append_fall_notes(const FallWatch& falls, std::span<const std::string> paths,
+void append_fall_notes(const Shape& shape, const MeasuredNode& node,
                        std::vector<std::string>& notes) {
+  if (!compares_progress(shape.nodes[node.ticks.node()].synchronization)) return;  // a pool
+  const FallWatch& falls = node.measure.falls();
   const auto add = [&](const std::optional<FallWatch::Fall>& fall, std::string_view what,
                        std::string_view consequence) {
     if (!fall) return;
     notes.push_back(fmt::format("the progress of '{}' {}, first at {:.3f} s: {}",
-                                paths[fall->child], what, to_seconds(fall->time), consequence));
+                                shape.nodes[node.ticks.children()[fall->child]].path, what,
+                                to_seconds(fall->time), consequence));
   };
   add(falls.while_ticked(), "fell", "the spread has no bound then");
   add(falls.while_held(), "fell while it was held", "the others may then wait indefinitely");

@@ -125,11 +125,10 @@ std::string info_text(RecordingReader& reader, bool color) {
   write_warnings(reader, faults, out, color);
   std::vector<SynchronizedSummary> reached;
   std::vector<std::string> notes;
-  for (auto& [parallel, measure] : nodes) {
+  for (MeasuredNode& measured : nodes) {
+    auto& [parallel, measure] = measured;
     if (measure.distance().samples() == 0) continue;
-    std::vector<std::string> paths;
-    for (const NodeIndex child : parallel.children()) paths.push_back(header.nodes[child].path);
-    append_fall_notes(measure.falls(), paths, notes);
+    append_fall_notes(header, measured, notes);
     measure.run_ended(from_seconds(time));
     const ShapeNode& node = header.nodes[parallel.node()];
     reached.push_back(
