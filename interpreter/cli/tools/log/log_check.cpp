@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
+#include "base/core/wording.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
@@ -82,10 +84,23 @@ int check_properties(const LogCheckOptions& options) {
   });
 }
 
+// A leaf of a plugin may do what its mock may not: an action of a program may take a tick more.
+void tell_of_mocks(const Definition& definition) {
+  std::set<std::string> types;
+  for (const DefinitionNode& it : definition.nodes) {
+    if (it.type->mock != nullptr) types.insert(fmt::format("'{}'", brief(it.type->id)));
+  }
+  if (types.empty()) return;
+  constexpr std::size_t kMostNamed = 5;
+  print_note("no plugin has " + printable(some_of(types, kMostNamed)) + ": checked as mocks",
+             "give --plugin and --plugin-path as in the run");
+}
+
 // Compares what the leaves did with what the leaf file lets them do.
 int check_leaves(const LogCheckOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) -> int {
-    const RecordedTree recorded(reader.header(), options.tree, options.plugins);
+    const RecordedTree recorded(reader.header(), options.tree, options.plugins,
+                                [](const Loaded& it) { tell_of_mocks(it.definition); });
     if (recorded.code() != kExitSuccess) return recorded.code();
     Diagnostics diagnostics;
     const auto file = load_leaf_file(options.leaves, diagnostics);
