@@ -269,6 +269,28 @@ TEST_CASE("a value in a later tick declares an entry, which is unset before") {
   }
 }
 
+TEST_CASE("log scenario reads a tree of which an entry is declared by a later value only") {
+  constexpr auto kEntry = R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence memory="true">
+<Wait seconds="0.2"/><Check code="CONDITION"/></Sequence></BehaviorTree></root>)";
+  struct Row {
+    const char *condition, *value;
+  };
+  for (const Row& row :
+       {Row{"k == 3", "3"}, Row{"k == 3.5", "3.5"}, Row{"k", "true"}, Row{"k == 'a b'", "a b"}}) {
+    std::string tree = kEntry;
+    tree.replace(tree.find("CONDITION"), 9, row.condition);
+    const Folder folder(R"(<scenario name="a"><set key="k" value=")" + std::string(row.value) +
+                            R"(" tick="1"/><expect same-as="run.jsonl"/></scenario>)",
+                        tree);
+    REQUIRE(folder.test({"--update"}).code == 0);
+    const Outcome made = run_lockstep({"log", "scenario", folder.path("run.jsonl")});
+    INFO(made.out << made.err);
+    CHECK(made.code == 0);
+    CHECK(
+        contains(made.out, R"(<set key="k" value=")" + std::string(row.value) + R"(" tick="1"/>)"));
+  }
+}
+
 TEST_CASE("start values and arguments are in a recording, so its scenario is the same run") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>

@@ -180,6 +180,7 @@ LoadOptions given_options(const std::string& path, const LoadCommandOptions& opt
       {.plugins = options.plugins,
        .arguments = parse_pairs(options.arguments, "--arg", diagnostics),
        .values = parse_pairs(options.values, "--set", diagnostics),
+       .later = options.later,
        .main_tree = options.main_tree,
        .main_file = options.main_file,
        .ros_packages = parse_pairs(options.ros_packages, "--ros-package", diagnostics),

@@ -17,6 +17,7 @@ struct LoadCommandOptions {
   PluginOptions plugins;
   std::vector<std::string> arguments;  // --arg name=value
   std::vector<std::string> values;     // --set key=value
+  StartValues later = {};              // of entries that get one while the tree runs
   std::string main_tree;               // --tree
   MainFile main_file = MainFile::MayBePipe;
   std::optional<std::string> text = {};   // in place of what the main file has

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -19,6 +21,19 @@ bool is_main_of(const Document& document, std::string_view tree) {
     return main->value == tree;
   }
   return std::ranges::count(document.elements(), "BehaviorTree", &Element::tag) == 1;
+}
+
+// Values with the types of the entries that nothing in the tree writes. What was set while the tree
+// ran, as by a scenario, may be all that has declared one.
+StartValues typed_values(const RecordingHeader& header) {
+  const std::map<std::string_view, std::string_view> by_type = {
+      {"bool", "true"}, {"int", "0"}, {"double", "0.5"}, {"string", "x"}};
+  StartValues values;
+  for (const ShapeEntry& it : header.entries) {
+    const auto value = by_type.find(it.type);
+    if (it.writers.empty() && value != by_type.end()) values.emplace(it.key, value->second);
+  }
+  return values;
 }
 
 }  // namespace
@@ -50,6 +65,7 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
   for (const auto& [key, value] : header.values) {
     load.values.push_back(fmt::format("{}={}", key, value));
   }
+  load.later = typed_values(header);
   Diagnostics diagnostics;
   auto loaded = load_given(file_, load, diagnostics);
   print_diagnostics(diagnostics, Severity::Error);
