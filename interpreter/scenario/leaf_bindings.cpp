@@ -9,6 +9,7 @@
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
 #include "leaves/play/played_leaves.h"
+#include "leaves/plugin/open/plugin_path.h"
 #include "scenario/binding_reader.h"
 #include "scenario/recorded_words.h"
 
@@ -98,7 +99,8 @@ class CastMaker {
     if (row.from == BindingRow::From::Plugin) {
       if (given_.nodes[leaf.node].type->leaf == nullptr) {
         return report_.at_value("unknown-node"_code, row.source,
-                                fmt::format("no plugin has '{}'", leaf.type->id));
+                                fmt::format("no plugin has '{}'", leaf.type->id),
+                                add_directory("its plugin"));
       }
       reader_.real.insert(leaf.node);
       return;

@@ -362,6 +362,8 @@ TEST_CASE("a leaf that no plugin has is not one of a plugin") {
   INFO(it.out);
   CHECK(it.code == 3);
   CHECK(contains(it.out, "no plugin has 'Grab'"));
+  CHECK(contains(it.out,
+                 "hint: add the directory that has its plugin to the plugin path: --plugin-path"));
 }
 
 TEST_CASE("an error that several scenarios have is reported once") {

@@ -16,12 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string add_directory() {
-  return fmt::format(
-      "add the directory that has it to the plugin path{}",
-      worded(": --plugin-path, or LOCKSTEP_PLUGIN_PATH", ", or to LOCKSTEP_PLUGIN_PATH"));
-}
-
 constexpr const char* kNoDirectory = "is not found: there is no directory to search";
 
 // The names that could be found in the directories.
@@ -50,6 +44,12 @@ std::string with_prefix(std::string_view name, std::span<const std::string> dire
 
 }  // namespace
 
+std::string add_directory(std::string_view what) {
+  return fmt::format(
+      "add the directory that has {} to the plugin path{}", what,
+      worded(": --plugin-path, or LOCKSTEP_PLUGIN_PATH", ", or to LOCKSTEP_PLUGIN_PATH"));
+}
+
 Result<std::string> find_plugin_file(std::string_view name,
                                      std::span<const std::string> directories) {
   for (const std::string& directory : directories) {
@@ -58,7 +58,7 @@ Result<std::string> find_plugin_file(std::string_view name,
     if (fs::exists(path, error)) return path;
   }
   if (directories.empty()) {
-    return problem(kNoDirectory, add_directory());
+    return problem(kNoDirectory, add_directory("it"));
   }
   const std::string message =
       fmt::format("is not found: '{}.so' is not in {}", brief(name), joined(directories, ", "));
@@ -75,7 +75,7 @@ Result<std::string> find_plugin_file(std::string_view name,
   const std::vector<std::string> names = available(directories);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::string hint = did_you_mean(name, candidates);
-  if (hint.empty()) hint = add_directory();
+  if (hint.empty()) hint = add_directory("it");
   return problem(message, std::move(hint));
 }
 
@@ -111,10 +111,10 @@ Result<std::string> find_program_file(std::string_view file,
     return problem(fmt::format("is a program that cannot be executed: '{}'", path),
                    fmt::format("chmod +x '{}'", path));
   }
-  if (directories.empty()) return problem(kNoDirectory, add_directory());
+  if (directories.empty()) return problem(kNoDirectory, add_directory("it"));
   return problem(fmt::format("is not found: the program '{}' is not in {}", brief(file),
                              joined(directories, ", ")),
-                 add_directory());
+                 add_directory("it"));
 }
 
 }  // namespace lockstep::host

@@ -20,6 +20,8 @@ namespace lockstep::host {
 // itself, in the first of `directories` that has one; "" when none has.
 [[nodiscard]] std::string program_named(std::string_view name,
                                         std::span<const std::string> directories);
+// The hint where a plugin, or what it has, is not found.
+[[nodiscard]] std::string add_directory(std::string_view what);
 bool is_executable(const std::string& path);  // a regular file that this user may execute
 
 }  // namespace lockstep::host
