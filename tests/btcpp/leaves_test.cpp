@@ -56,16 +56,6 @@ TEST_CASE(
   CHECK(seen >= 8);
 }
 
-TEST_CASE("leaves for BehaviorTree.CPP: the headers alone make a plugin, which can be isolated") {
-  const TemporaryDirectory directory;
-  const std::string tree = directory.file("t.xml", tree_of("<Ready times=\"2\"/>"));
-  for (const std::vector<std::string>& more : {std::vector<std::string>(), {"--isolate"}}) {
-    const Outcome outcome = run_tree(tree, "alone", more);
-    INFO(outcome.err);
-    CHECK(outcome.code == 0);
-  }
-}
-
 TEST_CASE("leaves for BehaviorTree.CPP: an error in a literal in JSON is what the converter says") {
   const TemporaryDirectory directory;
   const auto error = [&](const std::string& order) {

@@ -148,6 +148,15 @@ if(EXISTS ${BUILD}/liblockstep-runtime.so AND NOT SANITIZED)
     message(FATAL_ERROR "a program for BehaviorTree.CPP compiles ${count} functions of headers in one source: which "
                         "can be in plugins/sdk/btcpp/compiled instead? tests/btcpp/compile_times.py has the time")
   endif()
+  # With the headers alone, the plugin loads at each level of optimization, and can be isolated.
+  foreach(level O0 O2 O3)
+    run(${CXX_COMPILER} -std=c++17 -${level} -shared -fPIC -DBT_PLUGIN_EXPORT
+        -I${WORK}/moved/include -I${WORK}/moved/include/lockstep-btcpp
+        ${WORK}/btcpp/nodes.cpp -o ${WORK}/btcpp/alone.so)
+    foreach(option --on-fault=fail --isolate)
+      run(${BUILD}/lockstep run ${WORK}/btcpp/tree.xml --clock virtual --plugin ${WORK}/btcpp/alone.so ${option})
+    endforeach()
+  endforeach()
   # The plugin does not need the runtime.
   run(${READELF} -d ${WORK}/btcpp/build/librobot_nodes.so)
   if(output MATCHES "lockstep-runtime")

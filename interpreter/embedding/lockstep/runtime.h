@@ -30,11 +30,6 @@
 
 #include <lockstep/leaf.h>
 
-/* Code that works without the library, too, may define it with the attribute weak. */
-#ifndef LOCKSTEP_RUNTIME_EXPORT
-#define LOCKSTEP_RUNTIME_EXPORT LOCKSTEP_EXPORT
-#endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -43,69 +38,69 @@ extern "C" {
 #define LOCKSTEP_RUNTIME_MINOR 5u
 
 /* The library's own (major << 16 | minor), which may be newer than the header's. */
-LOCKSTEP_RUNTIME_EXPORT uint32_t lockstep_runtime_version(void);
+LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
 /* Why the last call of this thread failed; "" when it did not. Questions that cannot fail, as
  * lockstep_run_fault and the counts, leave it as it is. Valid until the next call. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_last_error(void);
+LOCKSTEP_EXPORT const char* lockstep_last_error(void);
 
 /* ---- Projects: a tree file, its includes and plugins -------------------------------------------
  */
 
 typedef struct lockstep_project lockstep_project;
 
-LOCKSTEP_RUNTIME_EXPORT lockstep_project* lockstep_project_new(void);
+LOCKSTEP_EXPORT lockstep_project* lockstep_project_new(void);
 /* NULL is allowed. Its runs may live on. */
-LOCKSTEP_RUNTIME_EXPORT void lockstep_project_free(lockstep_project* project);
+LOCKSTEP_EXPORT void lockstep_project_free(lockstep_project* project);
 
 /* What it is loaded with. Each of these before loading. */
 
 /* A directory in which plugins are searched; LOCKSTEP_PLUGIN_PATH is searched after those. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_add_plugin_path(lockstep_project* project,
+LOCKSTEP_EXPORT bool lockstep_project_add_plugin_path(lockstep_project* project,
                                                       const char* directory);
 /* A plugin that no tree names: a file, or a name to search for. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_add_plugin(lockstep_project* project, const char* plugin);
+LOCKSTEP_EXPORT bool lockstep_project_add_plugin(lockstep_project* project, const char* plugin);
 /* Leaves that are in the program. The table, and all that it points to, stays valid and unchanged
  * as long as the project and its runs. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_add_leaves(lockstep_project* project,
+LOCKSTEP_EXPORT bool lockstep_project_add_leaves(lockstep_project* project,
                                                  const lockstep_plugin* plugin);
 /* The value of an <arg>. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_set_argument(lockstep_project* project, const char* name,
+LOCKSTEP_EXPORT bool lockstep_project_set_argument(lockstep_project* project, const char* name,
                                                    const char* value);
 /* The start value of a blackboard entry, written as in XML. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_set_value(lockstep_project* project, const char* key,
+LOCKSTEP_EXPORT bool lockstep_project_set_value(lockstep_project* project, const char* key,
                                                 const char* value);
 /* Which <BehaviorTree>; without it main_tree_to_execute, or the only one. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, const char* id);
+LOCKSTEP_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, const char* id);
 /* Runs every plugin in a separate process, not only those for which the tree has isolate. Leaves
  * that are in the program stay there. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
 /* The program uses entries by their names, at any time and in any thread, also those
  * that no node of the tree names: lockstep_run_board. Each tick locks the entries then. With
  * has_outside, {@key} in a tree for BehaviorTree.CPP is the entry "@key" of the main board, which
  * the program exchanges with a board outside; otherwise it is the entry "key". */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_open_entries(lockstep_project* project, bool has_outside);
+LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project, bool has_outside);
 
 /* Keeps what lockstep_run_groot2 shows of the tree. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_show_groot2(lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_show_groot2(lockstep_project* project);
 
 /* For tests of trees: all leaves of plugins, also of such as are not there, play
  * scripts. No plugin is called. A leaf without a script runs indefinitely; a condition without one
  * fails. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_play_leaves(lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_play_leaves(lockstep_project* project);
 /* After loading: what a leaf does in runs that are made or restarted from then on, tick
  * by tick: "R0.25 R0.5 S" (docs/verify.md has the words; the last one stays). `path` is its path,
  * in which * stands for any part, so several leaves may have it; a later call wins.
  * `in_each_activation`: it begins with the first word whenever it starts. Not while a run of the
  * project is used in another thread. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_play(lockstep_project* project, const char* path,
+LOCKSTEP_EXPORT bool lockstep_project_play(lockstep_project* project, const char* path,
                                            const char* words, bool in_each_activation);
 
 /* Loads the tree, once. False when there are errors; the diagnostics have them, and warnings too
  * when there are none. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_load_file(lockstep_project* project, const char* path);
+LOCKSTEP_EXPORT bool lockstep_project_load_file(lockstep_project* project, const char* path);
 /* The same from a text. `name` stands for its file in diagnostics, and includes are relative to
  * it. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_load_text(lockstep_project* project, const char* name,
+LOCKSTEP_EXPORT bool lockstep_project_load_text(lockstep_project* project, const char* name,
                                                 const char* text, size_t length);
 
 enum { LOCKSTEP_ERROR = 0, LOCKSTEP_WARNING = 1, LOCKSTEP_NOTE = 2 };
@@ -121,8 +116,8 @@ typedef struct lockstep_diagnostic {
   const char* hint; /* what to do, or "" */
 } lockstep_diagnostic;
 
-LOCKSTEP_RUNTIME_EXPORT uint32_t lockstep_project_diagnostic_count(const lockstep_project* project);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_diagnostic(const lockstep_project* project, uint32_t index,
+LOCKSTEP_EXPORT uint32_t lockstep_project_diagnostic_count(const lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_diagnostic(const lockstep_project* project, uint32_t index,
                                                  lockstep_diagnostic* diagnostic);
 
 /* The nodes of the tree in pre-order, subtrees expanded; the root is node 0. Strings are valid as
@@ -137,10 +132,10 @@ typedef struct lockstep_node {
 } lockstep_node;
 
 /* 0 before it was loaded. */
-LOCKSTEP_RUNTIME_EXPORT uint32_t lockstep_project_node_count(const lockstep_project* project);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_node(const lockstep_project* project, uint32_t index,
+LOCKSTEP_EXPORT uint32_t lockstep_project_node_count(const lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_node(const lockstep_project* project, uint32_t index,
                                            lockstep_node* node);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_find_node(const lockstep_project* project, const char* path,
+LOCKSTEP_EXPORT bool lockstep_project_find_node(const lockstep_project* project, const char* path,
                                                 uint32_t* index);
 
 /* The blackboard entries that nodes of the tree use. Strings are valid as long as the
@@ -153,12 +148,12 @@ typedef struct lockstep_entry {
 } lockstep_entry;
 
 /* 0 before it was loaded. */
-LOCKSTEP_RUNTIME_EXPORT uint32_t lockstep_project_entry_count(const lockstep_project* project);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
+LOCKSTEP_EXPORT uint32_t lockstep_project_entry_count(const lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
                                             lockstep_entry* entry);
 /* The index of the entry with this key, a search among all entries. It is the handle of
  * the entry in all runs of this project, as long as one of these runs lives, and in any thread. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_project_find_entry(const lockstep_project* project, const char* key,
+LOCKSTEP_EXPORT bool lockstep_project_find_entry(const lockstep_project* project, const char* key,
                                                  uint32_t* index);
 
 /* ---- Runs --------------------------------------------------------------------------------------
@@ -202,12 +197,12 @@ typedef struct lockstep_run_options {
 } lockstep_run_options;
 
 /* A new run, whose leaves are created. NULL when a leaf cannot be. `options` may be NULL. */
-LOCKSTEP_RUNTIME_EXPORT lockstep_run* lockstep_run_new(lockstep_project* project,
+LOCKSTEP_EXPORT lockstep_run* lockstep_run_new(lockstep_project* project,
                                                const lockstep_run_options* options);
 /* Halts what runs, then destroys the leaves. NULL is allowed. */
-LOCKSTEP_RUNTIME_EXPORT void lockstep_run_free(lockstep_run* run);
+LOCKSTEP_EXPORT void lockstep_run_free(lockstep_run* run);
 /* Begins again, as a new run with this seed would; much faster than that. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t seed);
+LOCKSTEP_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t seed);
 
 /* One tick of the tree. `seconds` is the time since the run began, which must not decrease; time
  * stays the same within a tick. Returns LOCKSTEP_RUNNING also after a fault, when nothing is ticked
@@ -216,22 +211,22 @@ LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t se
  * lockstep_last_error is not "". A loop checks both after each tick. After Success or Failure the
  * next tick begins the tree again.
  */
-LOCKSTEP_RUNTIME_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seconds);
+LOCKSTEP_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seconds);
 /* The same, but the root is ticked exactly once, also when a node requests another tick
  * at once. */
-LOCKSTEP_RUNTIME_EXPORT lockstep_status lockstep_run_tick_once(lockstep_run* run, double seconds);
+LOCKSTEP_EXPORT lockstep_status lockstep_run_tick_once(lockstep_run* run, double seconds);
 /* Halts every leaf that runs, in the order of the tree. Refused, with lockstep_last_error, in what
  * the run calls back, as lockstep_run_tick, _restart, _loop and _free are. */
-LOCKSTEP_RUNTIME_EXPORT void lockstep_run_halt(lockstep_run* run);
+LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
 
 /* What ended the run ("Main/arm: threw an exception: …"), and the node; NULL when nothing did.
  * `node` may be NULL. Valid until the next call for this run. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
+LOCKSTEP_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
 
 /* After a fault, halts what runs. The run continues: the next tick begins the tree, with
  * the entries and the leaves as they are. The fault is reported with what leaves log, and so is in
  * a recording. False: a leaf could not be created; only lockstep_run_restart is of use then. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_recover(lockstep_run* run);
+LOCKSTEP_EXPORT bool lockstep_run_recover(lockstep_run* run);
 
 typedef struct lockstep_node_state {
   uint32_t struct_size; /* set by the program */
@@ -242,15 +237,15 @@ typedef struct lockstep_node_state {
 } lockstep_node_state;
 
 /* Progress is read from the leaves. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
+LOCKSTEP_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
                                        lockstep_node_state* state);
 
 /* What a node asks a person at this moment: the text of its question, valid until the next call for
  * this run; NULL when it asks nothing. And the answer to it, one of the options of the node,
  * between two ticks: it counts in the next one. `who` is for recordings, and may be NULL. False:
  * the node asks nothing, or has no such option. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_question(lockstep_run* run, uint32_t node);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_answer(lockstep_run* run, uint32_t node, const char* answer,
+LOCKSTEP_EXPORT const char* lockstep_run_question(lockstep_run* run, uint32_t node);
+LOCKSTEP_EXPORT bool lockstep_run_answer(lockstep_run* run, uint32_t node, const char* answer,
                                          const char* who);
 
 /* Blackboard entries, between ticks, by key: "height", or "Deliver/height" in a SubTree. get fails
@@ -258,100 +253,100 @@ LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_answer(lockstep_run* run, uint32_t nod
  * get_double also reads an int, and set_int sets the nearest double where the entry is one. Text is
  * written as in XML and works for all, also for objects whose type has texts. A text or list that
  * get gives is valid until the next call for this run; set copies. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_get_text(lockstep_run* run, const char* key);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_double(lockstep_run* run, const char* key, double* value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text);
+LOCKSTEP_EXPORT const char* lockstep_run_get_text(lockstep_run* run, const char* key);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_double(lockstep_run* run, const char* key, double* value);
+LOCKSTEP_EXPORT bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text);
 /* Texts with their length, which may contain a NUL. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_sized_text(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_get_sized_text(lockstep_run* run, const char* key,
                                                  lockstep_text* text);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_sized_text(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_set_sized_text(lockstep_run* run, const char* key,
                                                  const char* text, size_t length);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_double(lockstep_run* run, const char* key, double value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_bool_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value);
+LOCKSTEP_EXPORT bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value);
+LOCKSTEP_EXPORT bool lockstep_run_set_double(lockstep_run* run, const char* key, double value);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool_list(lockstep_run* run, const char* key,
                                                 const bool** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_int_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_get_int_list(lockstep_run* run, const char* key,
                                                const int64_t** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_double_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_get_double_list(lockstep_run* run, const char* key,
                                                   const double** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_text_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_get_text_list(lockstep_run* run, const char* key,
                                                 const lockstep_text** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_bool_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_set_bool_list(lockstep_run* run, const char* key,
                                                 const bool* values, size_t count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_int_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_set_int_list(lockstep_run* run, const char* key,
                                                const int64_t* values, size_t count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_double_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_set_double_list(lockstep_run* run, const char* key,
                                                   const double* values, size_t count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_text_list(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_set_text_list(lockstep_run* run, const char* key,
                                                 const lockstep_text* values, size_t count);
 /* The type of the value that an entry has now, of which the get of that type returns it.
  * 0 while nothing has written the entry; and when no node uses it, with lockstep_last_error. */
-LOCKSTEP_RUNTIME_EXPORT lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key);
+LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key);
 
 /* The same by the index of the entry, without a search for its key: for programs that
  * read and write entries around each tick. Values, threads and errors are as above; an index that
  * no entry has is an error. Numbers and flags are read and written without an allocation. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_get_text_at(lockstep_run* run, uint32_t entry);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_bool_at(lockstep_run* run, uint32_t entry, bool* value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_int_at(lockstep_run* run, uint32_t entry, int64_t* value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_double_at(lockstep_run* run, uint32_t entry, double* value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_text_at(lockstep_run* run, uint32_t entry, const char* text);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_sized_text_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT const char* lockstep_run_get_text_at(lockstep_run* run, uint32_t entry);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool_at(lockstep_run* run, uint32_t entry, bool* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_int_at(lockstep_run* run, uint32_t entry, int64_t* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_double_at(lockstep_run* run, uint32_t entry, double* value);
+LOCKSTEP_EXPORT bool lockstep_run_set_text_at(lockstep_run* run, uint32_t entry, const char* text);
+LOCKSTEP_EXPORT bool lockstep_run_get_sized_text_at(lockstep_run* run, uint32_t entry,
                                                     lockstep_text* text);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_sized_text_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_set_sized_text_at(lockstep_run* run, uint32_t entry,
                                                     const char* text, size_t length);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_bool_at(lockstep_run* run, uint32_t entry, bool value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_int_at(lockstep_run* run, uint32_t entry, int64_t value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_double_at(lockstep_run* run, uint32_t entry, double value);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_bool_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_set_bool_at(lockstep_run* run, uint32_t entry, bool value);
+LOCKSTEP_EXPORT bool lockstep_run_set_int_at(lockstep_run* run, uint32_t entry, int64_t value);
+LOCKSTEP_EXPORT bool lockstep_run_set_double_at(lockstep_run* run, uint32_t entry, double value);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool_list_at(lockstep_run* run, uint32_t entry,
                                                    const bool** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_int_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_get_int_list_at(lockstep_run* run, uint32_t entry,
                                                   const int64_t** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_double_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_get_double_list_at(lockstep_run* run, uint32_t entry,
                                                      const double** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_get_text_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_get_text_list_at(lockstep_run* run, uint32_t entry,
                                                    const lockstep_text** values, size_t* count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_bool_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_set_bool_list_at(lockstep_run* run, uint32_t entry,
                                                    const bool* values, size_t count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_int_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_set_int_list_at(lockstep_run* run, uint32_t entry,
                                                   const int64_t* values, size_t count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_double_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_set_double_list_at(lockstep_run* run, uint32_t entry,
                                                      const double* values, size_t count);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_text_list_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_set_text_list_at(lockstep_run* run, uint32_t entry,
                                                    const lockstep_text* values, size_t count);
-LOCKSTEP_RUNTIME_EXPORT lockstep_type lockstep_run_value_type_at(lockstep_run* run, uint32_t entry);
+LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type_at(lockstep_run* run, uint32_t entry);
 
 /* Objects by reference, of a type that the program knows as the plugins do; an error for
  * an entry of another type, or of objects in another process. What get returns is borrowed, until
  * the next tick or write; set retains it. */
-LOCKSTEP_RUNTIME_EXPORT void* lockstep_run_get_object(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT void* lockstep_run_get_object(lockstep_run* run, const char* key,
                                               const lockstep_object_type* type);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_object(lockstep_run* run, const char* key,
+LOCKSTEP_EXPORT bool lockstep_run_set_object(lockstep_run* run, const char* key,
                                              const lockstep_object_type* type, void* object);
-LOCKSTEP_RUNTIME_EXPORT void* lockstep_run_get_object_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT void* lockstep_run_get_object_at(lockstep_run* run, uint32_t entry,
                                                  const lockstep_object_type* type);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_set_object_at(lockstep_run* run, uint32_t entry,
+LOCKSTEP_EXPORT bool lockstep_run_set_object_at(lockstep_run* run, uint32_t entry,
                                                 const lockstep_object_type* type, void* object);
 
 /* The entries by their names, of a project with lockstep_project_open_entries: the board
  * of a tree, 0 for the main tree, for whoever releases it; NULL: there is none. The functions of a
  * board are those of lockstep/leaf.h. */
-LOCKSTEP_RUNTIME_EXPORT lockstep_board* lockstep_run_board(lockstep_run* run, uint32_t index);
-LOCKSTEP_RUNTIME_EXPORT const lockstep_boards* lockstep_boards_table(void);
+LOCKSTEP_EXPORT lockstep_board* lockstep_run_board(lockstep_run* run, uint32_t index);
+LOCKSTEP_EXPORT const lockstep_boards* lockstep_boards_table(void);
 
 /* The loop of the run ticks at once, if it waits for its next period; from any thread.
  * As when a leaf wants it: that is for types with LOCKSTEP_WAKES. */
-LOCKSTEP_RUNTIME_EXPORT void lockstep_run_wake(lockstep_run* run);
+LOCKSTEP_EXPORT void lockstep_run_wake(lockstep_run* run);
 
 /* Called after each tick, also of the loop, in the thread that ticks. It may read the run, and must
  * not tick, halt or free it. Several may observe; NULL as `observe` removes those of this `user`.
  */
 typedef void (*lockstep_observe)(void* user, lockstep_run* run, uint64_t tick, double seconds,
                                  lockstep_status status);
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user);
+LOCKSTEP_EXPORT bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user);
 
 /* Keeps the state of the run in a file, and resumes it after a kill, a crash or a power failure:
  * docs/resume.md. */
@@ -399,16 +394,16 @@ typedef struct lockstep_resumed_leaf {
  * new: the file is of another run (another tree, argument, plugin, period, version), damaged, in
  * use, or was resumed too often; or the tree has an entry for objects. Also false: a leaf could not
  * be created in lockstep_run_restart. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_keep(lockstep_run* run, const char* file,
+LOCKSTEP_EXPORT bool lockstep_run_keep(lockstep_run* run, const char* file,
                                        const lockstep_keep_options* options,
                                        lockstep_resumed* result);
 /* The leaves that ran at the cut, from 0; false: no more. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_resumed_leaf(lockstep_run* run, uint32_t index,
+LOCKSTEP_EXPORT bool lockstep_run_resumed_leaf(lockstep_run* run, uint32_t index,
                                                lockstep_resumed_leaf* leaf);
 /* Why nothing is kept any more, and since when, as on a full disk; NULL: all is kept, or nothing
  * was to be. The run continues; a leaf cannot commit any more. The log gets this once. Valid until
  * the next call for this run. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_not_kept(lockstep_run* run);
+LOCKSTEP_EXPORT const char* lockstep_run_not_kept(lockstep_run* run);
 
 /* What else watches the run, as in the command `lockstep run`. Each before the
  * first tick, until lockstep_run_restart, lockstep_run_free or the end of a loop. All long work is
@@ -418,29 +413,29 @@ LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_not_kept(lockstep_run* run);
  * changed is written soon after it. A resumed run writes "run.resumed-1.jsonl" for "run.jsonl". If
  * it cannot be written any more, as on a full disk, the log gets a warning, and the run continues.
  */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_record(lockstep_run* run, const char* file);
+LOCKSTEP_EXPORT bool lockstep_run_record(lockstep_run* run, const char* file);
 /* Writes what recordings of this process have not written yet. Async-signal-safe: for a program
  * that handles its own crash. */
-LOCKSTEP_RUNTIME_EXPORT void lockstep_flush_recordings(void);
+LOCKSTEP_EXPORT void lockstep_flush_recordings(void);
 /* Shows the run in browsers (--monitor), which may only look. `address` is "8080", "0.0.0.0:8080",
  * or "0" for a free port. Returns the link for a person, valid until the next call for this run;
  * NULL: refused. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_monitor(lockstep_run* run, const char* address);
+LOCKSTEP_EXPORT const char* lockstep_run_monitor(lockstep_run* run, const char* address);
 /* Shows the run in Groot2 (--groot2), which may only look; also after the first tick. `address` as
  * above, and the port after it too; NULL: not any more. Only for a project that was loaded with
  * lockstep_project_show_groot2. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_groot2(lockstep_run* run, const char* address);
+LOCKSTEP_EXPORT bool lockstep_run_groot2(lockstep_run* run, const char* address);
 
 /* A property of the run, from its first tick to the first result of the root, a fault,
  * the end of a loop or a restart, after which it is checked again: "arm.running leads to arm.done
  * within 9 ticks" (docs/properties.md). NULL: those of the tree file, which are not checked else.
  * Before the first tick. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_check(lockstep_run* run, const char* property);
+LOCKSTEP_EXPORT bool lockstep_run_check(lockstep_run* run, const char* property);
 /* Of the properties that are violated so far, in the order in which that was found: what and when
  * ("never arm.failure: violated in tick 3, at 0.300 s"). Of a run that continues, those of before
  * the cut come first ("…: violated in tick 3, before the cut"). NULL: no more. Valid until the next
  * tick or restart. */
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_run_violation(lockstep_run* run, uint32_t index);
+LOCKSTEP_EXPORT const char* lockstep_run_violation(lockstep_run* run, uint32_t index);
 
 /* An event of a node that is watched, while the tree is ticked. */
 enum {
@@ -463,7 +458,7 @@ typedef lockstep_status (*lockstep_watch_node)(void* user, lockstep_run* run, ui
 /* Calls for these nodes, and for no others, in the thread that ticks; NULL as `watch`: for none. A
  * node that is not watched costs nothing. A node that has completed is idle again, without a call,
  * when its parent has completed or begins again. Also within such a call. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_watch_nodes(lockstep_run* run, const uint32_t* nodes,
+LOCKSTEP_EXPORT bool lockstep_run_watch_nodes(lockstep_run* run, const uint32_t* nodes,
                                               size_t count, lockstep_watch_node watch, void* user);
 
 /* ---- Scripts -----------------------------------------------------------------------------------
@@ -473,18 +468,18 @@ LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_watch_nodes(lockstep_run* run, const u
  * is used by one thread at a time. */
 typedef struct lockstep_script lockstep_script;
 /* `words` are known to it as numbers; may be NULL. NULL: the text is no script. */
-LOCKSTEP_RUNTIME_EXPORT lockstep_script* lockstep_script_new(const char* text, size_t length,
+LOCKSTEP_EXPORT lockstep_script* lockstep_script_new(const char* text, size_t length,
                                                      const lockstep_words* words);
 /* NULL is allowed. */
-LOCKSTEP_RUNTIME_EXPORT void lockstep_script_free(lockstep_script* script);
+LOCKSTEP_EXPORT void lockstep_script_free(lockstep_script* script);
 /* The names of entries in it, "@key" with its '@'; valid as long as the script. */
-LOCKSTEP_RUNTIME_EXPORT uint32_t lockstep_script_name_count(const lockstep_script* script);
-LOCKSTEP_RUNTIME_EXPORT const char* lockstep_script_name(const lockstep_script* script, uint32_t index);
+LOCKSTEP_EXPORT uint32_t lockstep_script_name_count(const lockstep_script* script);
+LOCKSTEP_EXPORT const char* lockstep_script_name(const lockstep_script* script, uint32_t index);
 /* Runs it. `values` has one for each name, `declared` 0 where there is no such entry. After the run
  * they are what the script has made of them, valid until its next call; `writes` is the number of
  * times it has written each. `result` is the value of the last statement; may be NULL. False after
  * an error: what was assigned before it stays. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_script_run(lockstep_script* script, lockstep_entry_value* values,
+LOCKSTEP_EXPORT bool lockstep_script_run(lockstep_script* script, lockstep_entry_value* values,
                                          lockstep_entry_value* result);
 
 /* ---- The fixed-rate loop -----------------------------------------------------------------------
@@ -525,7 +520,7 @@ typedef struct lockstep_loop_result {
 /* Ticks a new or restarted run once every tick_period until it completes or must stop, and halts
  * it. The thread sleeps in between. `options` and `result` may be NULL. False: an argument is
  * wrong. On the virtual clock max_ticks 0 is a million. */
-LOCKSTEP_RUNTIME_EXPORT bool lockstep_run_loop(lockstep_run* run, const lockstep_loop_options* options,
+LOCKSTEP_EXPORT bool lockstep_run_loop(lockstep_run* run, const lockstep_loop_options* options,
                                        lockstep_loop_result* result);
 
 #ifdef __cplusplus

@@ -1,6 +1,8 @@
 // A tree of a program over lockstep/runtime.h, and the functions of tree.h.
 #pragma once
 
+#include <lockstep/runtime.h>
+
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -12,7 +14,6 @@
 #include "behaviortree_cpp/blackboard.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 #include "behaviortree_cpp/lockstep/program_nodes.h"
-#include "behaviortree_cpp/lockstep/runtime_calls.h"
 #include "behaviortree_cpp/lockstep/stand_in.h"
 #include "behaviortree_cpp/lockstep/tree.h"
 #include "behaviortree_cpp/lockstep/tree_watch.h"
@@ -53,7 +54,7 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
     std::shared_ptr<const Outline> outline = nullptr;
   };
 
-  explicit Program(Source source) : source_(std::move(source)) {
+  explicit Program(Source source) : NodeTree({start_watch, is_result_over, halt_for, visit_from}), source_(std::move(source)) {
     if (project_ == nullptr) throw RuntimeError(lockstep_last_error());
     const Making scope(*source_.nodes);
     load();
@@ -164,35 +165,40 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
     return status == NodeStatus::SKIPPED ? NodeStatus::IDLE : status;
   }
 
-  void begin_watch() override {
-    if (watch_ != nullptr) watch_->begin();
+ private:
+  // What NodeTree calls.
+  static void start_watch(NodeTree& tree) {
+    const Program& program = static_cast<Program&>(tree);
+    if (program.watch_ != nullptr) program.watch_->begin();
   }
-  bool is_over(const TreeNode& node) const override {
-    if (is_busy_ || watch_ == nullptr || watch_->is_on()) return false;
+  static bool is_result_over(const NodeTree& tree, const TreeNode& node) {
+    const Program& program = static_cast<const Program&>(tree);
+    if (program.is_busy_ || program.watch_ == nullptr || program.watch_->is_on()) return false;
     const std::uint32_t index = node.lockstep_index_;
-    const std::uint32_t parent = places_->nodes[index].parent;
-    return parent == index || engine_status(parent) != NodeStatus::RUNNING;
+    const std::uint32_t parent = program.places_->nodes[index].parent;
+    return parent == index || program.engine_status(parent) != NodeStatus::RUNNING;
   }
-  bool halt(const TreeNode& node) override {
-    if (is_busy_) return false;
+  static bool halt_for(NodeTree& tree, const TreeNode& node) {
+    Program& program = static_cast<Program&>(tree);
+    if (program.is_busy_) return false;
     if (node.lockstep_index_ != 0) {
       throw LogicError("node '", node.name(), "' is halted by its tree only: BT::Tree::haltTree()");
     }
-    halt();
+    program.halt();
     return true;
   }
-  void visit(const TreeNode& first, const Visitor& visitor) const override {
+  static void visit_from(const NodeTree& tree, const TreeNode& first, const Visitor& visitor) {
+    const Program& program = static_cast<const Program&>(tree);
     const std::uint32_t begin = first.lockstep_index_;
     std::vector<std::size_t> depths;  // of the nodes below: those that follow, until one is not
-    for (std::uint32_t i = begin; i < nodes_.size(); ++i) {
-      const std::uint32_t parent = places_->nodes[i].parent;
+    for (std::uint32_t i = begin; i < program.nodes_.size(); ++i) {
+      const std::uint32_t parent = program.places_->nodes[i].parent;
       if (i != begin && parent < begin) return;
       depths.push_back(i == begin ? 0 : depths[parent - begin] + 1);
-      visitor(nodes_[i].get(), depths.back());
+      visitor(program.nodes_[i].get(), depths.back());
     }
   }
 
- private:
   // The blackboard is that of the run, before its nodes are made.
   static void prepare(void* user, lockstep_board* main) {
     const Program& program = *static_cast<const Program*>(user);

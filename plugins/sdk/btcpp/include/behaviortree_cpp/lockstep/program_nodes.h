@@ -1,6 +1,8 @@
 // The nodes of a tree that a program ticks, as the library shows them. Included by program.h.
 #pragma once
 
+#include <lockstep/runtime.h>
+
 #include <map>
 #include <memory>
 #include <string>
@@ -11,7 +13,6 @@
 #include "behaviortree_cpp/lockstep/node_ids.h"
 #include "behaviortree_cpp/lockstep/outline.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
-#include "behaviortree_cpp/lockstep/runtime_calls.h"
 
 namespace BT::lockstep_detail {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lockstep/duration.h>
+#include <lockstep/runtime.h>
 
 #include <chrono>
 #include <functional>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "behaviortree_cpp/blackboard.h"
-#include "behaviortree_cpp/lockstep/runtime_calls.h"
 #include "behaviortree_cpp/tree_node.h"
 #include "behaviortree_cpp/utils/wakeup_signal.hpp"
 #include "behaviortree_cpp/utils/wildcards.hpp"

@@ -2,6 +2,8 @@
 // their statuses as the library has them, each change when it happens. Included by program.h.
 #pragma once
 
+#include <lockstep/runtime.h>
+
 #include <exception>
 #include <memory>
 #include <string>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "behaviortree_cpp/lockstep/program_nodes.h"
-#include "behaviortree_cpp/lockstep/runtime_calls.h"
 #include "behaviortree_cpp/lockstep/stand_in.h"
 
 namespace BT::lockstep_detail {

@@ -2,6 +2,8 @@
 // in a tree or not.
 #pragma once
 
+#include <lockstep/runtime.h>
+
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "behaviortree_cpp/blackboard.h"
-#include "behaviortree_cpp/lockstep/runtime_calls.h"
 
 namespace BT {
 
