@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/blackboard/conversion.h"
 #include "base/core/wording.h"
 
 namespace lockstep::host {
@@ -27,6 +28,9 @@ Value Operand::value() const {
 std::string Operand::shown() const {
   switch (kind) {
     case Kind::Whole:
+      if (whole > kLargestExact || whole < -kLargestExact) {
+        return fmt::format("{} (beyond {})", whole, whole < 0 ? -kLargestExact : kLargestExact);
+      }
       return fmt::format("{}", whole);
     case Kind::Real:
       if (std::isnan(real)) return "NaN (such as 0/0)";  // fmt shows the sign that it may have

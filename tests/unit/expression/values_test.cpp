@@ -81,8 +81,10 @@ TEST_CASE("arithmetic takes two numbers, + also two texts") {
       {"empty+1",
        "'+' takes two numbers or two texts, not the entry 'empty' without a value and 1"},
       {"9007199254740991+0", "9007199254740991.0"},
-      {"9007199254740992+0", "'+' takes two numbers or two texts, not 9007199254740992 and 0"},
-      {"large*1", "'*' takes two numbers, not 9007199254740992 and 1"},
+      {"9007199254740992+0",
+       "'+' takes two numbers or two texts, not 9007199254740992 (beyond 9007199254740991) and 0"},
+      {"-large", "'-' takes a number, not 9007199254740992 (beyond 9007199254740991)"},
+      {"large*1", "'*' takes two numbers, not 9007199254740992 (beyond 9007199254740991) and 1"},
   };
   check_values(rows);
 }
