@@ -4,18 +4,19 @@
 
 #include <algorithm>
 #include <set>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "author/convert/blackboard_check.h"
 #include "author/convert/circumstances.h"
+#include "author/convert/declared_arguments.h"
 #include "author/convert/entry_types.h"
 #include "author/convert/marked_keys.h"
 #include "author/convert/script_text.h"
 #include "author/convert/set_blackboard.h"
 #include "author/convert/since_4.h"
 #include "author/convert/start_value.h"
+#include "author/convert/strict_xml.h"
 #include "author/convert/switch_node.h"
 #include "base/core/identifier.h"
 #include "base/core/pre_order.h"
@@ -61,17 +62,6 @@ bool reads_nodes(const Document& document) {
   return false;
 }
 
-// The first 'arg' element of each name.
-std::unordered_map<std::string_view, std::uint32_t> declarations(const Document& document) {
-  std::unordered_map<std::string_view, std::uint32_t> found;
-  const auto elements = document.elements();
-  for (const std::uint32_t child : children_in(elements, 0)) {
-    const Attribute* name = document.find_attribute(child, "name");
-    if (elements[child].tag == "arg" && name != nullptr) found.emplace(name->value, child);
-  }
-  return found;
-}
-
 class Converter {
  public:
   Converter(const Document& document, const Conversion& conversion, const Reporter& report)
@@ -85,7 +75,7 @@ class Converter {
         scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict),
         reads_nodes_(reads_nodes(document)),
         is_older_(is_older_form(document)),
-        declarations_(declarations(document)) {}
+        arguments_(document) {}
 
   std::optional<std::string> convert() {
     bool before_end = true;
@@ -125,16 +115,18 @@ class Converter {
       case TokenKind::CloseTag:
         return close_tag(token);
       case TokenKind::Text:
-        if (to_ours() && !is_left_out() && !is_in_models()) leave_out_text(token);
+        if (to_ours() && !is_left_out() && !is_in_models())
+          edits_.remove(token.begin, end_of_text(text_, token));
         return;
       case TokenKind::Comment:
         return comment(token);
       case TokenKind::Instruction:
         is_prolog_ = is_prolog;
-        if (to_ours() ? !is_strict(token) : !is_prolog) leave_out_instruction(token);
+        if (to_ours() ? !is_strict_xml(text_, token) : !is_prolog) leave_out_instruction(token);
         return;
       case TokenKind::Doctype:
-        if (to_ours() && (next_ > 0 || !is_strict(token) || std::exchange(has_doctype_, true))) {
+        if (to_ours() &&
+            (next_ > 0 || !is_strict_xml(text_, token) || std::exchange(has_doctype_, true))) {
           leave_out_instruction(token);
         }
         return;
@@ -236,46 +228,14 @@ class Converter {
                Severity::Warning);
   }
 
-  // Calls use(offset, name) for each ${name}.
-  template <class Use>
-  static void for_each_argument(std::string_view text, Use use) {
-    for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", at + 2)) {
-      const auto close = text.find('}', at);
-      if (close == std::string_view::npos) return;
-      const bool is_literal = at > 0 && text[at - 1] == '$';
-      if (!is_literal) use(at, text.substr(at + 2, close - at - 2));
-    }
-  }
-
   // Warns once of each name that this file does not declare.
   void warn_of_arguments(const Attribute& attribute) {
-    for_each_argument(attribute.value, [&](std::size_t at, std::string_view name) {
-      if (declaration_of(name) != 0 || !told_.insert(name).second) return;
+    DeclaredArguments::for_each_in(attribute.value, [&](std::size_t at, std::string_view name) {
+      if (arguments_.has(name) || !told_.insert(name).second) return;
       report_.in_value("not-convertible"_code, attribute.place, at,
                        fmt::format("'${{{}}}' is a text for BehaviorTree.CPP", brief(name)),
                        "it has no arguments: write the value, or an entry", Severity::Warning);
     });
-  }
-
-  // With the defaults of the arguments that this file declares.
-  std::string with_defaults(std::string_view text) const {
-    std::string all;
-    std::size_t end = 0;
-    for_each_argument(text, [&](std::size_t at, std::string_view name) {
-      const std::uint32_t declaration = declaration_of(name);
-      const Attribute* value =
-          declaration == 0 ? nullptr : document_.find_attribute(declaration, "default");
-      if (value == nullptr) return;
-      all.append(text.substr(end, at - end)).append(value->value);
-      end = at + name.size() + 3;
-    });
-    return all.append(text.substr(end));
-  }
-
-  // The 'arg' element of that name; 0 if there is none.
-  std::uint32_t declaration_of(std::string_view argument) const {
-    const auto it = declarations_.find(argument);
-    return it == declarations_.end() ? 0 : it->second;
   }
 
   // Releases before 4.8.4 take it, and lockstep does.
@@ -310,6 +270,13 @@ class Converter {
     report_.at("not-convertible"_code, place,
                fmt::format("{} cannot be expressed in {}", what, conversion_.to.title),
                std::move(hint));
+  }
+
+  void not_the_same(Place place, std::string_view what, std::string difference,
+                    Severity severity = Severity::Warning) const {
+    if (report_.counted_only(severity)) return;
+    report_.at("not-the-same"_code, place, fmt::format("'{}' is not quite the same", brief(what)),
+               std::move(difference), severity);
   }
 
   void convert_node(std::uint32_t element, const XmlToken& token) {
@@ -348,11 +315,8 @@ class Converter {
       // Few leaves do, so one line for each difference is enough.
       const bool is_rare = it.when == btcpp::When::LeafSkipsFirst;
       if (is_rare && !told_of_skips_.insert(it.what).second) continue;
-      const Severity severity = is_rare ? Severity::Note : Severity::Warning;
-      if (report_.counted_only(severity)) continue;
-      report_.at("not-the-same"_code, place_of(element),
-                 fmt::format("'{}' is not quite the same", brief(type)), std::string(it.what),
-                 severity);
+      not_the_same(place_of(element), type, std::string(it.what),
+                   is_rare ? Severity::Note : Severity::Warning);
     }
     if (pair_->ours == "SubTree") convert_subtree(element, token);
   }
@@ -436,11 +400,8 @@ class Converter {
     open_.back().tag = "WhileDoElse";
     open_.back().before_children = fmt::format("<Check code={}/>", host::quoted(converted.code));
     open_.back().behind_children = fmt::format("<{}/>", converted.otherwise);
-    if (report_.counted_only(Severity::Warning)) return;
-    report_.at("not-the-same"_code, place_of(element),
-               fmt::format("'{}' is not quite the same", brief(type)),
-               "an entry without a value was not equal; in a script it is an error",
-               Severity::Warning);
+    not_the_same(place_of(element), type,
+                 "an entry without a value was not equal; in a script it is an error");
   }
 
   void convert_setter(std::uint32_t element, const XmlToken& token) {
@@ -465,11 +426,10 @@ class Converter {
   // What is a text there may be a number here, which a script then uses. For example, n := 0,
   // SetBlackboard n="1", n += 1.
   void warn_of_text(Place place, std::string_view what, const EntryTypes::Found& entry) const {
-    if (!entry.has_number || entry.has_port || report_.counted_only(Severity::Warning)) return;
-    report_.at("not-the-same"_code, place, fmt::format("'{}' is not quite the same", brief(what)),
-               "for BehaviorTree.CPP the entry then has a text, to which no script assigns a "
-               "number; in lockstep's language it keeps the type that scripts give it",
-               Severity::Warning);
+    if (!entry.has_number || entry.has_port) return;
+    not_the_same(place, what,
+                 "for BehaviorTree.CPP the entry then has a text, to which no script assigns a "
+                 "number; in lockstep's language it keeps the type that scripts give it");
   }
 
   void warn_of_start_text(Place place, std::uint32_t subtree, std::string_view name,
@@ -490,13 +450,10 @@ class Converter {
     open_.back().tag = "Switch";
     if (!to_ours()) open_.back().tag += std::to_string(converted.attributes.size() - 1);
     for (const auto& [name, value] : converted.attributes) add_attribute(token, name, value);
-    if (report_.counted_only(Severity::Warning)) return;
-    report_.at("not-the-same"_code, place_of(element),
-               fmt::format("'{}' is not quite the same", brief(type)),
-               "for BehaviorTree.CPP, an entry without a value chooses the last child; in "
-               "lockstep's language it is an error" +
-                   converted.difference,
-               Severity::Warning);
+    not_the_same(place_of(element), type,
+                 "for BehaviorTree.CPP, an entry without a value chooses the last child; in "
+                 "lockstep's language it is an error" +
+                     converted.difference);
   }
 
   std::uint32_t count_children(std::uint32_t element) const {
@@ -544,7 +501,7 @@ class Converter {
 
   std::string value_of(const Attribute& attribute) const {
     const std::string_view tag = document_.elements()[open_.back().element].tag;
-    return is_older_ ? value_since_4(tag, attribute, !declarations_.empty(), report_)
+    return is_older_ ? value_since_4(tag, attribute, !arguments_.is_empty(), report_)
                      : std::string(attribute.value);
   }
 
@@ -636,8 +593,8 @@ class Converter {
   void convert_script(const XmlToken& token, const Attribute& attribute, std::string_view name) {
     const auto script = converted_script(attribute.value);
     if (script) {
-      const auto whole = converted_script(with_defaults(attribute.value));
-      if (!whole || *whole != with_defaults(*script)) {
+      const auto whole = converted_script(arguments_.with_defaults(attribute.value));
+      if (!whole || *whole != arguments_.with_defaults(*script)) {
         return cannot(attribute.place, "a script with this argument",
                       "its default is in other words there: write it here in its place");
       }
@@ -773,23 +730,6 @@ class Converter {
     open_.pop_back();
   }
 
-  void leave_out_text(const XmlToken& token) {
-    auto end = std::min(text_.find('<', token.begin + 1), text_.size());
-    while (end > token.begin && is_xml_blank(text_[end - 1])) --end;
-    const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
-    const auto section = text_.find("]]>", token.begin);
-    edits_.remove(token.begin, is_section ? section + 3 : end);
-  }
-
-  // Whether an instruction or a DOCTYPE is one of XML, too.
-  bool is_strict(const XmlToken& token) const {
-    const bool is_declaration = token.value.starts_with("<?xml") && is_xml_blank(token.value[5]);
-    if (is_declaration && text_.find('<') != token.begin) return false;
-    if (is_declaration && token.begin > 0 && is_xml_blank(text_[token.begin - 1])) return false;
-    Scanner strict(token.value);
-    return strict.next().kind == token.kind && strict.next().kind == TokenKind::End;
-  }
-
   // BehaviorTree.CPP takes them at the beginning of a file only, and then any.
   void leave_out_instruction(const XmlToken& token) {
     edits_.remove(token.begin, token.begin + token.value.size());
@@ -804,17 +744,9 @@ class Converter {
   }
 
   void comment(const XmlToken& token) {
-    const auto end = text_.find("-->", token.begin + 4);
-    const std::string_view inside = text_.substr(token.begin + 4, end - token.begin - 4);
-    if (!to_ours() || (inside.find("--") == std::string_view::npos && !inside.ends_with('-')))
-      return;
-    std::string text;
-    for (const char c : inside) {
-      if (c == '-' && text.ends_with('-')) text += ' ';
-      text += c;
-    }
-    if (text.ends_with('-')) text += ' ';
-    edits_.replace(token.begin + 4, end, text);
+    const auto begin = token.begin + 4, end = text_.find("-->", begin);
+    const auto text = comment_in_xml(text_.substr(begin, end - begin));
+    if (to_ours() && text) edits_.replace(begin, end, *text);
   }
 
   const Document& document_;
@@ -827,7 +759,7 @@ class Converter {
   Scanner scanner_;
   const bool reads_nodes_;
   const bool is_older_;  // for version 3 of BehaviorTree.CPP
-  const std::unordered_map<std::string_view, std::uint32_t> declarations_;  // of arguments: 'arg'
+  const DeclaredArguments arguments_;
   TextEdit edits_;
   std::vector<Open> open_;
   std::uint32_t next_ = 0;          // element
