@@ -21,11 +21,11 @@ class Explainer {
 
   // Who waits for whom in the end, or what is done instead.
   std::vector<std::string> why_it_stands(const Finding& finding);
-  // As a run would report it. Empty: nobody waits all the time.
+  // What a run prints of a standstill. Empty: nobody waits all the time.
   std::vector<std::string> standstill_of(const Finding& finding);
   // What ends in the cycle, or else who gets ticks in it.
   std::string what_happens(const Finding& finding);
-  // In which something is found.
+  // The tick in which something is found.
   std::string last_tick_of(const Finding& finding);
 
  private:

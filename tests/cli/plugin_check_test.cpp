@@ -16,6 +16,26 @@ Outcome check_plugin(const std::string& file, std::vector<std::string> more = {}
   return run_lockstep(arguments);
 }
 
+// A program with one leaf, that always succeeds. `leaf` and its `answer` to describe are
+// expressions of Python.
+std::string program_that_describes(const TemporaryDirectory& directory, const std::string& leaf,
+                                   const std::string& answer) {
+  std::string program = directory.file("program.py", R"(#!/usr/bin/python3
+import json, os, sys
+print(json.dumps(dict(lockstep=1, leaves=[)" + leaf + R"(])), flush=True)
+for line in sys.stdin:
+    request = json.loads(line)
+    if request["do"] == "describe":
+        print()" + answer + R"(, flush=True)
+    elif request["do"] == "tick":
+        print(json.dumps(dict(leaf=request["leaf"], status="success")), flush=True)
+    elif request["do"] in ("create", "halt"):
+        print(json.dumps(dict(leaf=request["leaf"], done=True)), flush=True)
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  return program;
+}
+
 }  // namespace
 
 TEST_CASE("plugin check: the plugins that ship keep the contract, control nodes included") {
@@ -102,21 +122,11 @@ TEST_CASE("plugin check: a leaf that ends its process is named, and the others a
 
 TEST_CASE("plugin check gives a fixed port a value of its range") {
   const TemporaryDirectory directory;
-  const std::string program = directory.file("many.py", R"(#!/usr/bin/python3
-import json, sys
-print(json.dumps(dict(lockstep=1, leaves=[{"id": "S", "more_ports": ["x.*"], "ports": [
-    {"name": "k", "type": "int", "fixed": True, "min": 2, "max": 9}]}])), flush=True)
-for line in sys.stdin:
-    request = json.loads(line)
-    if request["do"] == "describe":
-        ports = [{"name": "x.%d" % i, "type": "double", "default": 0.0} for i in range(request["fixed"]["k"])]
-        print(json.dumps(dict(ports=ports)), flush=True)
-    elif request["do"] == "tick":
-        print(json.dumps(dict(leaf=request["leaf"], status="success")), flush=True)
-    elif request["do"] in ("create", "halt"):
-        print(json.dumps(dict(leaf=request["leaf"], done=True)), flush=True)
-)");
-  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string program =
+      program_that_describes(directory, R"({"id": "S", "more_ports": ["x.*"], "ports": [
+          {"name": "k", "type": "int", "fixed": True, "min": 2, "max": 9}]})",
+                             R"(json.dumps(dict(ports=[
+          {"name": "x.%d" % i, "type": "double", "default": 0.0} for i in range(request["fixed"]["k"])])))");
   const Outcome it = run_lockstep({"plugin", "check", program});
   INFO(it.out << it.err);
   CHECK(it.code == 0);
@@ -126,23 +136,13 @@ for line in sys.stdin:
 TEST_CASE(
     "plugin check and run: what a program describes wrongly is named, with the leaf and port") {
   const TemporaryDirectory directory;
-  const std::string program = directory.file("shape.py", R"(#!/usr/bin/python3
-import json, os, sys
-print(json.dumps(dict(lockstep=1, leaves=[{"id": "Shape", "more_ports": ["size.*"], "ports": [
-    {"name": "kind", "type": "string", "fixed": True, "choices": ["round", "square"]}]}])), flush=True)
-for line in sys.stdin:
-    request = json.loads(line)
-    if request["do"] == "describe":
-        print(open(os.path.dirname(sys.argv[0]) + "/answer").read(), flush=True)
-    elif request["do"] == "tick":
-        print(json.dumps(dict(leaf=request["leaf"], status="success")), flush=True)
-    elif request["do"] in ("create", "halt"):
-        print(json.dumps(dict(leaf=request["leaf"], done=True)), flush=True)
-)");
-  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string program =
+      program_that_describes(directory, R"({"id": "Shape", "more_ports": ["size.*"], "ports": [
+          {"name": "kind", "type": "string", "fixed": True, "choices": ["round", "square"]}]})",
+                             R"(open(os.path.dirname(sys.argv[0]) + "/answer").read())");
   const std::string tree =
       directory.file("t.xml",
-                     "<root lockstep=\"1\"><plugin name=\"shape\" program=\"shape.py\"/>\n"
+                     "<root lockstep=\"1\"><plugin name=\"shape\" program=\"program.py\"/>\n"
                      "<BehaviorTree ID=\"T\"><Shape kind=\"round\" size.r=\"2\"/>"
                      "</BehaviorTree></root>");
   const std::string wrongly = "answers describe wrongly: ", whose = "what it describes for 'Shape'";

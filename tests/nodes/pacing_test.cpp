@@ -212,7 +212,9 @@ TEST_CASE("pacing: times in a slowed child are slow, too") {
 }
 
 // It begins in tick 1, is slowed there, is held from tick 2 on, and gets its next tick in tick 8.
-TEST_CASE("pacing: a time by the wall clock goes on in a child that is slowed and then held") {
+TEST_CASE(
+    "pacing: Timeout and Delay by the wall clock count while their child is slowed, and while it "
+    "is held") {
   const auto status_of_leaf = [](const std::string& node) {
     ScriptedRun run("ParallelAbsolute[barriers=.3;.4;.75 pace=true](a Sequence[memory=true](b " +
                         node + "[seconds=.7 clock=wall](c)))",

@@ -20,7 +20,7 @@ namespace lockstep::host {
 // itself, in the first of `directories` that has one; "" when none has.
 [[nodiscard]] std::string program_named(std::string_view name,
                                         std::span<const std::string> directories);
-// The hint where a plugin, or what it has, is not found.
+// A hint to give the directory of `what`, such as a plugin or the plugin of a leaf.
 [[nodiscard]] std::string add_directory(std::string_view what);
 bool is_executable(const std::string& path);  // a regular file that this user may execute
 
