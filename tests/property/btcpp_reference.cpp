@@ -219,10 +219,18 @@ class Node {
     return std::get<double>(script.value);
   }
 
+  // Scripts compute with real numbers, and each number is whole here.
+  static double need_exact(const Operand& operand) {
+    const double number = std::get<double>(operand);
+    if (std::fabs(number) > 9007199254740991) throw Failed("beyond what a real number has exactly");
+    return number;
+  }
+
   bool holds(const Script& script) const {
     if (script.name.empty()) return std::get<double>(script.value) != 0;
     const Operand left = need(script.name).value, right = operand(script);
     if (left.index() != right.index()) throw Failed("a text and a number");
+    if (left.index() == 1) need_exact(left), need_exact(right);
     if (script.op == "==") return left == right;
     if (script.op == "!=") return left != right;
     return script.op == "<" ? left < right : left > right;
@@ -234,7 +242,7 @@ class Node {
     Operand value = operand(script);
     if (script.op == "+=") {
       if (entry->value.index() == 0) throw Failed("empty " + script.name);
-      value = std::get<double>(entry->value) + std::get<double>(value);
+      value = need_exact(entry->value) + need_exact(value);
     }
     entry->value = value;
     ++entry->writes;
@@ -268,7 +276,7 @@ class Node {
     const auto it = element_.attributes.find(name);
     return it == element_.attributes.end() ? "" : it->second;
   }
-  int number(const std::string& name, int otherwise = 0) const {
+  std::int64_t number(const std::string& name, int otherwise = 0) const {
     const std::string value = text(name);
     if (value.empty()) return otherwise;
     const auto key = key_in(value);
@@ -277,7 +285,7 @@ class Node {
     const auto* held = entry == nullptr ? nullptr : std::get_if<double>(&entry->value);
     if (held == nullptr && otherwise != 0) return otherwise;
     if (held == nullptr) throw Failed(name + " has no value");
-    return static_cast<int>(*held);
+    return static_cast<std::int64_t>(*held);
   }
 
   // --- nodes ---
@@ -457,9 +465,9 @@ class Node {
     return end(skipped == children_.size() ? Status::Skipped : goes_on);
   }
 
-  int count(int given) const {
-    const int all = static_cast<int>(children_.size());
-    return given >= 0 ? given : std::max(all + given + 1, 0);
+  std::int64_t count(std::int64_t given) const {
+    const std::int64_t all = std::ssize(children_);
+    return given >= 0 ? given : std::max(all + given + 1, std::int64_t{0});
   }
 
   // How many were skipped: it, or none.
@@ -473,8 +481,8 @@ class Node {
 
   Status parallel() {
     const int all = static_cast<int>(children_.size());
-    const int given = number("success_count", -1);
-    const int wanted = count(given), failures = count(number("failure_count", 1));
+    const std::int64_t given = number("success_count", -1);
+    const std::int64_t wanted = count(given), failures = count(number("failure_count", 1));
     unsigned skipped = 0;
     for (const auto& child : children_) {
       skipped += tick_unless_done(*child);
@@ -558,7 +566,8 @@ class Node {
   }
 
   Status synchronized() {
-    if (status_ != Status::Running) reset_children();
+    const bool has_ended = status_ == Status::Success || status_ == Status::Failure;
+    if (has_ended) reset_children();  // one whose members were all skipped resets nothing
     std::vector<double> snapshot;
     double& least = least_ = 1;
     for (const auto& child : children_) {
@@ -582,7 +591,7 @@ class Node {
       failed += child.status_ == Status::Failure ? 1 : 0;
     }
     if (there == 0) return pass(Status::Skipped);
-    const int wanted = std::min(number("success_count", there), there);
+    const std::int64_t wanted = std::min<std::int64_t>(number("success_count", there), there);
     if (succeeded >= wanted) return end(Status::Success);
     const bool is_lost = failed >= number("failure_count", 1) || there - failed < wanted;
     return is_lost ? end(Status::Failure) : Status::Running;
@@ -593,7 +602,8 @@ class Node {
     const auto all = static_cast<double>(children_.size());
     if (tag == "Act" && world_.behavior != nullptr) return world_.behavior->progress(number_);
     if (tag == "Act") return progress_;
-    if (tag == "Sleep") return std::min(1.0, (world_.time - *since_) / (number("msec") * 1.0));
+    if (tag == "Sleep")
+      return std::min(1.0, (world_.time - *since_) / static_cast<double>(number("msec")));
     if (tag == "Sequence" || tag == "AsyncSequence" || tag == "SequenceWithMemory") {
       return (static_cast<double>(at_) + children_[at_]->progress()) / all;
     }
@@ -608,10 +618,12 @@ class Node {
     if (tag == "Parallel") return progress_of_parallel();
     if (tag == "ParallelAll" || is_synchronized()) return least_progress();
     const Node& child = *children_[0];
-    if (tag == "Repeat" && times_ > 0) return std::min(1.0, (rounds_ + running(child)) / times_);
+    if (tag == "Repeat" && times_ > 0)
+      return std::min(
+          1.0, (static_cast<double>(rounds_) + running(child)) / static_cast<double>(times_));
     if (tag == "LoopInt") {
       const bool runs = child.status_ == Status::Running;
-      return (rounds_ - (runs ? 1 : 0) + running(child)) / 3;
+      return (static_cast<double>(rounds_ - (runs ? 1 : 0)) + running(child)) / 3;
     }
     // Its child has succeeded, and begins again in the next tick.
     const bool begins_again = child.status_ != Status::Running && child.last_ == Status::Success;
@@ -644,8 +656,8 @@ class Node {
     }
     if (all.empty()) return 0;
     std::ranges::sort(all, std::greater<>());
-    const int wanted =
-        std::clamp(count(number("success_count", -1)), 1, static_cast<int>(children_.size()));
+    const std::int64_t wanted =
+        std::clamp<std::int64_t>(count(number("success_count", -1)), 1, std::ssize(children_));
     return all[std::min(static_cast<std::size_t>(wanted), all.size()) - 1];
   }
 
@@ -785,7 +797,8 @@ class Node {
 
   Status repeat(Status goes_on, const std::string& port) {
     Node& child = *children_[0];
-    while (rounds_ < (times_ = number(port))) {
+    times_ = number(port);  // once in a tick; a Retry reads it after each attempt, too
+    while (rounds_ < times_) {
       Status result{};
       const bool at_once = completes_at_once(child, result);
       if (result == Status::Running) return result;
@@ -796,7 +809,8 @@ class Node {
         return result;
       }
       ++rounds_;
-      if (at_once && rounds_ < (times_ = number(port))) {
+      if (goes_on == Status::Failure) times_ = number(port);
+      if (at_once && rounds_ < times_) {
         world_.is_asked = true;
         return Status::Running;
       }
@@ -853,7 +867,7 @@ class Node {
   std::size_t ticks_ = 0, at_ = 0, skipped_ = 0;
   unsigned seen_ = 0;
   // Those of a LoopInt that has not begun are -1: after _successIf it is not idle, and has no list.
-  int rounds_ = element_.tag == "LoopInt" ? -1 : 0, times_ = 0;
+  std::int64_t rounds_ = element_.tag == "LoopInt" ? -1 : 0, times_ = 0;
   std::optional<int> since_;
   bool is_over_ = false, is_open_ = false;
   std::optional<Status> once_;
