@@ -148,7 +148,9 @@ void ask(NodeContext& context, NodeIndex node) {
   const bool begins = context.first_tick(node);
   if (begins || !is_under_way(context, node)) use.owned = 0;
   if (begins || keeps(context, node)) use.handed = 0;
-  const Owned owned = owned_by_others(context, node, begins && what != OnChange::Release);
+  const bool is_small = context.tree().group(member.group).resources.size() <= kMaxExchanged;
+  const bool takes_over = begins && what != OnChange::Release && is_small;
+  const Owned owned = owned_by_others(context, node, takes_over);
   if (begins) {
     const ResourceSet needed = what == OnChange::Keep ? all_resources(request) : owned.before;
     use.handed = owned.before & needed & ~owned.by_others;

@@ -16,7 +16,8 @@ using ResourceSet = std::uint64_t;
 // The most resources of a pool: a set fits into the whole numbers of a double, as which recordings
 // have it.
 inline constexpr std::size_t kMaxResources = 50;
-// The most of a pool that has a member that waits for one set while it owns another: both fit.
+// The most of a pool whose members may wait for one set while they own another: both fit. In a
+// larger pool none exchanges, or takes over from the one before it.
 inline constexpr std::size_t kMaxExchanged = 26;
 // The most nodes of a tree that use a pool which robots share.
 inline constexpr std::size_t kMostAsked = 8;

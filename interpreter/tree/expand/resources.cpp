@@ -93,10 +93,11 @@ class PoolResolver {
     }
   }
 
-  // One that may wait for other resources while it owns some.
-  bool exchanges(const DefinitionGroup& group, std::uint32_t member) const {
+  bool exchanges(std::uint32_t member) const {
     const Value* on_change = definition_.constant(at(member), "on_change");
-    if (on_change != nullptr && *on_change == Value("exchange")) return true;
+    return on_change != nullptr && *on_change == Value("exchange");
+  }
+  bool would_take_over(const DefinitionGroup& group, std::uint32_t member) const {
     return definition_.keeps(at(member)) &&
            std::ranges::any_of(group.members, [&](std::uint32_t other) {
              return other < member && is_before(other, member) && may_share(other, member);
@@ -114,13 +115,20 @@ class PoolResolver {
   }
 
   void check_exchanges(const DefinitionGroup& group) const {
-    const auto member =
-        std::ranges::find_if(group.members, [&](auto it) { return exchanges(group, it); });
-    if (member == group.members.end()) return;
-    report_.at("pool-size"_code, at(*member).place,
-               fmt::format("the pool '{}' has {} resources, more than a member can exchange",
-                           brief(at(group.node).name), group.resources.size()),
-               fmt::format("the limit is {}: split it into several pools", kMaxExchanged));
+    const auto tell = [&](std::uint32_t member, std::string_view what, Severity severity) {
+      report_.at("pool-size"_code, at(member).place,
+                 fmt::format("the pool '{}' has {} resources, more than a member can {}",
+                             brief(at(group.node).name), group.resources.size(), what),
+                 fmt::format("the limit is {}: split it into several pools", kMaxExchanged),
+                 severity);
+    };
+    for (const std::uint32_t member : group.members) {
+      if (exchanges(member)) {
+        tell(member, "exchange", Severity::Error);
+      } else if (would_take_over(group, member)) {
+        tell(member, "take over from the one before it", Severity::Warning);
+      }
+    }
   }
 
   // Where two pools are nested both ways, two members could wait for each other.
