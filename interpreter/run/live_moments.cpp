@@ -15,6 +15,7 @@ LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
       limits_(tree.nodes.size()),
       uses_(tree.nodes.size()),
       synchronized_(synchronized_nodes(tree)),
+      stood_still_(asked.stood_still),
       asks_progress_(!asked.progress.empty()),
       asks_within_(asked.within),
       asks_progress_within_(asked.progress_within) {
@@ -121,6 +122,7 @@ const Moment& LiveMoments::now(Ticker& ticker) {
   moment_.live = this;
   moment_.number = state.tick_number;
   moment_.ended = state.ended;
+  if (stood_still_ != nullptr) moment_.stood_still = *stood_still_;
   moment_.reasons = ticker.reasons();
   moment_.answers = ticker.answers();
   moment_.entries = ticker.blackboard().entries;

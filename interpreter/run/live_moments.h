@@ -71,7 +71,8 @@ class LiveMoments final : private LiveRun {
   std::vector<std::span<const double>> uses_;
   std::vector<const double*> factors_;  // empty: nobody paces
   const std::vector<NodeIndex> synchronized_;
-  const void* bound_ = nullptr;  // where the engine keeps what these point to
+  const void* bound_ = nullptr;                      // where the engine keeps what these point to
+  const std::vector<NodeIndex>* const stood_still_;  // null: of no tick
   bool asks_progress_, asks_within_, asks_progress_within_;
   Moment moment_;
 };

@@ -12,6 +12,7 @@ AskedOfRun asked_by(std::span<Observer* const> observers) {
     all.within |= asked.within;
     all.progress_within |= asked.progress_within;
     if (!asked.heard.empty()) all.heard = asked.heard;
+    if (asked.stood_still != nullptr) all.stood_still = asked.stood_still;
   }
   return all;
 }

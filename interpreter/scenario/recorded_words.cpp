@@ -85,11 +85,9 @@ class WordMaker {
            "the scenario ends with it",
            tick.tick);
     }
-    for (const LeafLine& it : tick.logs) {
-      if (it.text.starts_with(it.who + std::string(kIsFailed))) {
-        note(Lacks::Intervention, "'--stall-fail' ended '{}' in tick {}: the scenario waits on",
-             it.who, tick.tick);
-      }
+    for (const NodeIndex node : moment.stood_still) {
+      note(Lacks::Intervention, "'--stall-fail' ended '{}' in tick {}: the scenario waits on",
+           header_.nodes[node].path, tick.tick);
     }
     find_changed(tick);
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, moment, calls_.of(i), leaves_[i]);

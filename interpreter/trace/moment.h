@@ -78,6 +78,8 @@ struct Moment {
   std::span<const double* const> factors = {};
   // That have succeeded in the tick, and were ended later in it.
   std::span<const NodeIndex> ended = {};
+  // That --stall-fail has ended in the tick: run/stall_fail.h.
+  std::span<const NodeIndex> stood_still = {};
   MomentsView within = {};  // what happened within the tick
   // Of the nodes that have ever had one, in the order of their first ones.
   std::span<const Reason> reasons = {};
@@ -142,6 +144,8 @@ struct AskedOfRun {
   bool progress_within = false;           // and MomentsView::progress
   // Of the observer that knows it: Moment::heard, which it changes before a tick.
   std::span<const Heard> heard = {};
+  // Likewise: Moment::stood_still. Null: nothing ends what stands still.
+  const std::vector<NodeIndex>* stood_still = nullptr;
 };
 
 // Whether a parallel, or a node beside the tree, asked its children in the tick. A tick in which a

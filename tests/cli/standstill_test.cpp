@@ -216,7 +216,11 @@ TEST_CASE("standstill: --stall-fail ends it, and a Retry begins again") {
         "warning: Main/Retry/pull is halted and fails: Main/Retry/pull/arm makes no progress at 0 "
         "since 1.120 s and holds the other children of 'pull' back\n");
   CHECK(contains(outcome.out, "failure after 214 ticks"));
-  CHECK(contains(outcome.out, "pull (ParallelAbsolute): failure, it stood still (--stall-fail)\n"));
+  CHECK(contains(outcome.out, "pull (ParallelAbsolute): failure: it stood still (--stall-fail)\n"));
+  CHECK(contains(outcome.out,
+                 "Retry: failure, 2 attempts failed\n"
+                 "      - tick 106: pull: it stood still (--stall-fail)\n"
+                 "      - tick 213: pull: it stood still (--stall-fail)\n"));
   CHECK(contains(outcome.out, "Main/Retry/pull was halted and failed at 2.130 s\n"));
   CHECK(contains(outcome.out, "    arm   did not wait\n"));
 }
@@ -276,6 +280,39 @@ TEST_CASE("standstill: the recording has the node's Failure, and a line about it
   CHECK(scenario.code == 0);
   CHECK(contains(scenario.err,
                  "'--stall-fail' ended 'Main/Retry/pull' in tick 106: the scenario waits on"));
+}
+
+TEST_CASE("standstill: what reads a recording knows that --stall-fail ended a node") {
+  const auto record = [](const StandingProject& project) {
+    std::string file = project.directory.path("run.jsonl");
+    project.run({"--stall-fail", "1", "--record", file, "--view", "none"});
+    return file;
+  };
+  const StandingProject retry(
+      tree("<Retry attempts=\"2\">" + pull(advance("arm", "0")) + "</Retry>"));
+  const std::string retried = record(retry);
+  const std::string path =
+      "    Retry: failure, 2 attempts failed\n"
+      "      - tick 106: pull: it stood still (--stall-fail)\n"
+      "      - tick 213: pull: it stood still (--stall-fail)\n"
+      "      pull (ParallelAbsolute): failure: it stood still (--stall-fail)\n";
+  CHECK(contains(run_lockstep({"log", "why", retried}).out, path));
+  CHECK(contains(run_lockstep({"log", "info", retried}).out, path));
+  CHECK(contains(run_lockstep({"log", "info", retried}).out,
+                 "  --stall-fail ended 2 stalls, first 'Main/Retry/pull' in tick 106\n"));
+  CHECK(run_lockstep({"log", "why", retried, "arm"}).out ==
+        "'Main/Retry/pull/arm' was halted in tick 213, when 'Main/Retry/pull' failed\n"
+        "    pull (ParallelAbsolute): failure: it stood still (--stall-fail)\n");
+  const json links = parse_json(run_lockstep({"log", "why", retried, "--json"}).out)["links"];
+  CHECK(links.back()["stood_still"] == true);
+  CHECK_FALSE(links.front().contains("stood_still"));
+
+  // Another child decides later.
+  const StandingProject fallback(tree("<Fallback memory=\"true\">" + pull(advance("arm", "0")) +
+                                      "<AlwaysFailure name=\"let_go\"/></Fallback>"));
+  CHECK(contains(run_lockstep({"log", "why", record(fallback)}).out,
+                 "    Fallback: failure (2 of 2 children)\n"
+                 "      - pull: it stood still (--stall-fail)\n"));
 }
 
 TEST_CASE("standstill: a run that comes to none is the same with --stall-fail, byte for byte") {

@@ -8,6 +8,15 @@
 #include "judge/summary/standstill_text.h"
 
 namespace lockstep::host {
+namespace {
+
+constexpr std::string_view kIsFailed = " is halted and fails: ";  // behind the path
+
+}  // namespace
+
+bool tells_of_end(std::string_view path, std::string_view line) {
+  return line.starts_with(path) && line.substr(path.size()).starts_with(kIsFailed);
+}
 
 Standstills::Standstills(Shape shape, std::optional<Nanoseconds> limit, Tell tell)
     : shape_(std::move(shape)), tell_(std::move(tell)) {
@@ -88,10 +97,6 @@ StandstillSummary Standstills::summarize(const Standstill& standstill) const {
 void Standstills::add_to(Summary& summary) const {
   for (const Kept& it : kept_) summary.standstills.push_back(it.summary);
   summary.more_standstills = count_ - kept_.size();
-  if (summary.why_failed.empty()) return;
-  const std::string& last = summary.why_failed.back().path;
-  summary.why_failed.back().stood_still =
-      std::ranges::any_of(failed_, [&](NodeIndex node) { return shape_.nodes[node].path == last; });
 }
 
 }  // namespace lockstep::host

@@ -14,8 +14,8 @@
 
 namespace lockstep::host {
 
-// What the line of a node that --stall-fail ends says behind its path. Recordings have it.
-inline constexpr std::string_view kIsFailed = " is halted and fails: ";
+// Whether a line that a recording has of a node says that --stall-fail has ended it in that tick.
+bool tells_of_end(std::string_view path, std::string_view line);
 
 class Standstills final : public Observer {
  public:
@@ -26,6 +26,7 @@ class Standstills final : public Observer {
   // Without a limit it reports only what failed() adds.
   Standstills(Shape shape, std::optional<Nanoseconds> limit, Tell tell);
 
+  AskedOfRun asked() const override { return {.stood_still = &failed_}; }
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(const Moment& moment, const TickReport& report) override;
   // --stall-fail has ended it; run/stall_fail.h.

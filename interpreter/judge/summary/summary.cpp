@@ -133,7 +133,6 @@ void write_link(const WhySummary& node, std::size_t indent, std::string& out, bo
   if (node.is_held) out += ", held";
   if (node.agreeing > 1 && node.status != Status::Idle)
     out += fmt::format(" ({} of {} children)", node.agreeing, node.children);
-  if (node.stood_still) out += ", it stood still (--stall-fail)";
   if (node.failed_attempts > 0) {
     out += fmt::format(", {} failed", counted(node.failed_attempts, "attempt"));
     if (node.attempts_since) {
@@ -217,7 +216,8 @@ std::vector<WhySummary> summarize(std::span<const WhyLink> links, const Shape& s
                                                             .agreeing = it.decided.agreeing,
                                                             .reason = it.reason,
                                                             .failed_attempts = it.failed_attempts,
-                                                            .attempts_since = it.attempts_since});
+                                                            .attempts_since = it.attempts_since,
+                                                            .stood_still = it.stood_still});
     const auto add = [&](std::span<const Attempt> from, std::vector<WhySummary::Attempt>& to) {
       for (const Attempt& attempt : from) {
         to.push_back({attempt.tick, shape.nodes[attempt.node].path, attempt.reason, attempt.times});

@@ -22,6 +22,8 @@ std::uint32_t writes_of(const Moment& moment, std::uint32_t entry) {
   return moment.live == nullptr ? moment.texts[entry].writes : moment.entries[entry].changes();
 }
 
+constexpr std::string_view kStoodStill = "it stood still (--stall-fail)";
+
 // A leaf has one reason in a tick, which is that of the last attempt. Those before it are one row.
 void add_attempt(std::vector<Attempt>& all, Attempt it) {
   const auto joins = [](Attempt& row, const Attempt& next) {
@@ -102,8 +104,21 @@ void WhyWatch::after_tick(const Moment& moment) {
     if ((owned & ~it.owned) != 0) it.since = moment.tick;
     it.owned = owned;
   }
+  follow_stalls(moment);
   for (Timed& it : timed_) follow_time(moment, it, is_later_part);
   if (!tries_.empty()) follow_attempts(moment, is_later_part);
+}
+
+// Allocates only where a node stood still.
+void WhyWatch::follow_stalls(const Moment& moment) {
+  std::erase_if(stood_still_, [&](NodeIndex node) { return moment.ticked(node); });
+  stood_still_.insert(stood_still_.end(), moment.stood_still.begin(), moment.stood_still.end());
+}
+
+// What was ended so has no child that decided: it may have begun again in the same tick.
+bool WhyWatch::stood_still(const Moment& moment, NodeIndex node) const {
+  return moment.status(node) == Status::Failure && !deciding_child(shape_, moment, node) &&
+         std::ranges::find(stood_still_, node) != stood_still_.end();
 }
 
 // Of what runs in it, since its end ends that, too. Allocates only where a pool is waited for.
@@ -182,7 +197,10 @@ void WhyWatch::note_attempt(const Moment& moment, const Moment& part, Tries& tri
   while (const auto child = deciding_child(shape_, part, node)) node = *child;
   if (times > 1) add_attempt(tries.last, {.tick = moment.tick, .node = node, .times = times - 1});
   Attempt last{.tick = moment.tick, .node = node};
-  if (moment.status(node) == part.status(node)) last.reason = reason(moment, node);
+  if (stood_still(part, node))
+    last.reason = kStoodStill;
+  else if (moment.status(node) == part.status(node))
+    last.reason = reason(moment, node);
   add_attempt(tries.last, std::move(last));
 }
 
@@ -257,6 +275,7 @@ std::string WhyWatch::time_text(const Moment& moment, NodeIndex node) const {
 }
 
 std::string WhyWatch::reason(const Moment& moment, NodeIndex node) const {
+  if (stood_still(moment, node)) return std::string(kStoodStill);
   if (const std::string_view own = moment.reason(node); !own.empty()) return std::string(own);
   const ShapeNode& it = shape_.nodes[node];
   if (!it.condition.empty() && moment.status(node) != Status::Idle) {
@@ -353,6 +372,7 @@ std::vector<WhyLink> WhyWatch::why(const Moment& moment, NodeIndex node) const {
     WhyLink& link = links.emplace_back(WhyLink{.decided = deciding_node(shape_, moment, self),
                                                .depth = depth,
                                                .is_held = moment.held(self),
+                                               .stood_still = stood_still(moment, self),
                                                .reason = reason(moment, self)});
     link.others = others(moment, link.decided);
     if (const auto it = std::ranges::find(tries_, self, &Tries::node); it != tries_.end()) {

@@ -32,6 +32,7 @@ struct WhyLink {
   DecidingNode decided;
   std::size_t depth = 0;  // below the first link
   bool is_held = false;
+  bool stood_still = false;  // it failed because of --stall-fail
   std::string reason = {};
   std::uint64_t failed_attempts = 0;  // of a node that tries again, in this activation
   // Where they are counted from, if the activation may be older than what is known of the run.
@@ -90,6 +91,8 @@ class WhyWatch {
     std::uint64_t since = 0;  // the tick in which it got the last of these
   };
 
+  void follow_stalls(const Moment& moment);
+  bool stood_still(const Moment& moment, NodeIndex node) const;
   std::string reason(const Moment& moment, NodeIndex node) const;
   std::string condition_text(const Moment& moment, NodeIndex node) const;
   std::string value_text(const Moment& moment, const std::string& key) const;
@@ -111,6 +114,7 @@ class WhyWatch {
   std::vector<Tries> tries_;
   std::vector<Timed> timed_;
   std::vector<User> users_;
+  std::vector<NodeIndex> stood_still_;  // and have not been ticked since
   // A part of a tick as a Moment of its own.
   std::vector<NodeState> column_;
   std::vector<Activity> activity_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "judge/summary/standstills.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -31,7 +33,8 @@ std::vector<std::vector<NodeIndex>> nodes_around(const Shape& shape,
 }  // namespace
 
 RecordedMoments::RecordedMoments(const RecordingHeader& header)
-    : activity_(header.nodes.size()),
+    : header_(header),
+      activity_(header.nodes.size()),
       reached_(header.nodes.size()),
       progress_(header.nodes.size()),
       limit_(header.nodes.size()),
@@ -109,9 +112,11 @@ const Moment& RecordedMoments::read(const RecordedTick& tick) {
   moment_.reasons = reasons_;
   moment_.answers = tick.answers;
   read_ended(tick);
+  read_stood_still(tick);
   moment_.tick = tick.tick;
   moment_.time = from_seconds(tick.time);
   moment_.ended = ended_;
+  moment_.stood_still = stood_still_;
   moment_.within =
       tick.moments.empty() ? MomentsView{.progress = tick.moments.progress} : tick.moments;
   return moment_;
@@ -124,6 +129,17 @@ void RecordedMoments::read_ended(const RecordedTick& tick) {
   for (const Keeper& keeper : keepers_) {
     if (std::ranges::find(tick.succeeded, keeper.node) == tick.succeeded.end()) continue;
     ended_.insert(ended_.end(), keeper.children.begin(), keeper.children.end());
+  }
+}
+
+// Only a line that the run has logged tells it.
+void RecordedMoments::read_stood_still(const RecordedTick& tick) {
+  stood_still_.clear();
+  for (const LeafLine& it : tick.logs) {
+    if (!tells_of_end(it.who, it.text)) continue;
+    const auto node = std::ranges::find(header_.nodes, it.who, &ShapeNode::path);
+    if (node == header_.nodes.end()) continue;
+    stood_still_.push_back(static_cast<NodeIndex>(node - header_.nodes.begin()));
   }
 }
 

@@ -12,6 +12,7 @@ namespace lockstep::host {
 
 class RecordedMoments {
  public:
+  // The header must outlive this.
   explicit RecordedMoments(const RecordingHeader& header);
   RecordedMoments(const RecordedMoments&) = delete;
   RecordedMoments& operator=(const RecordedMoments&) = delete;
@@ -40,7 +41,9 @@ class RecordedMoments {
   Status before(NodeIndex node) const;
   bool is_left_out(const Keeper& keeper, std::size_t child) const;
   void read_ended(const RecordedTick& tick);
+  void read_stood_still(const RecordedTick& tick);
 
+  const RecordingHeader& header_;
   std::vector<Activity> activity_;  // after the last tick that was read
   std::vector<std::uint32_t> reached_;
   std::vector<double> progress_, limit_, factor_;
@@ -51,7 +54,7 @@ class RecordedMoments {
   std::vector<bool> is_guard_;     // it is ticked again after it has completed
   std::vector<bool> is_leaf_;
   std::vector<Keeper> keepers_;
-  std::vector<NodeIndex> ended_;
+  std::vector<NodeIndex> ended_, stood_still_;
   std::vector<EntryText> texts_;
   std::vector<Reason> reasons_;
   std::vector<Heard> heard_;

@@ -82,8 +82,14 @@ std::vector<WhySummary> why_failed(const RecordingReader& reader, const WhyWatch
   return summarize(why.why(last), reader.header());
 }
 
-void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::string& out,
-                    bool color) {
+struct Stalls {
+  std::uint64_t ended = 0;  // by --stall-fail
+  std::uint64_t tick = 0;   // of the first, and so is the node
+  NodeIndex node = 0;
+};
+
+void write_warnings(const RecordingReader& reader, std::uint64_t faults, const Stalls& stalls,
+                    std::string& out, bool color) {
   if (const std::string gaps = reader.gaps(); !gaps.empty()) {
     out += fmt::format("  {}\n", styled(gaps, Style::Warning, color));
   }
@@ -91,6 +97,12 @@ void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::st
     out += fmt::format("  {}\n",
                        styled(counted(faults, "fault") + " of leaves after which the run continued",
                               Style::Warning, color));
+  }
+  if (stalls.ended > 0) {
+    out += fmt::format(
+        "  {}, first '{}' in tick {}\n",
+        styled("--stall-fail ended " + counted(stalls.ended, "stall"), Style::Warning, color),
+        printable(reader.header().nodes[stalls.node].path), stalls.tick);
   }
 }
 
@@ -103,6 +115,7 @@ std::string info_text(RecordingReader& reader, bool color) {
   std::vector<MeasuredNode> nodes = measured_nodes(header);
   RecordedJoints joints(reader);
   std::uint64_t ticks = 0, faults = 0;
+  Stalls stalls;
   const Moment* last = nullptr;
   while (const auto tick = reader.next()) {
     ticks = tick->tick + 1;
@@ -111,6 +124,9 @@ std::string info_text(RecordingReader& reader, bool color) {
     }
     faults += tick->faults.size();
     last = &moments.read(*tick);
+    for (const NodeIndex node : last->stood_still) {
+      if (stalls.ended++ == 0) stalls = {.ended = 1, .tick = tick->tick, .node = node};
+    }
     why.after_tick(*last);
     for (MeasuredNode& node : nodes) node.after_tick(*last);
   }
@@ -122,7 +138,7 @@ std::string info_text(RecordingReader& reader, bool color) {
   write_tree(header, last, out);
   write_end(reader, ticks, time, out, color);
   if (last != nullptr) write_text(why_failed(reader, why, *last), out, color);
-  write_warnings(reader, faults, out, color);
+  write_warnings(reader, faults, stalls, out, color);
   std::vector<SynchronizedSummary> reached;
   std::vector<std::string> notes;
   for (MeasuredNode& measured : nodes) {
