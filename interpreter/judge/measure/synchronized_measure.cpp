@@ -21,6 +21,10 @@ SynchronizedMeasure::SynchronizedMeasure(std::size_t children, const Guards& gua
 void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   const TickView view{.parallels = {&tick, 1}};
   distance_.after_tick(view);
+  if (is_pool()) {  // it compares no progress: only the waits of its members count
+    for (HeldChild& child : held_) child.after_tick(view);
+    return;
+  }
   tick.ticked ? see_children(view) : pass_time_of_held(view);
   step_length_.end_tick(tick);
   falls_.end_tick(tick);

@@ -252,7 +252,6 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
 
 void append_fall_notes(const Shape& shape, const MeasuredNode& node,
                        std::vector<std::string>& notes) {
-  if (!compares_progress(shape.nodes[node.ticks.node()].synchronization)) return;  // a pool
   const FallWatch& falls = node.measure.falls();
   const auto add = [&](const std::optional<FallWatch::Fall>& fall, std::string_view what,
                        std::string_view consequence) {

@@ -68,7 +68,7 @@ struct WhySummary {
 std::vector<WhySummary> summarize(std::span<const WhyLink> links, const Shape& shape);
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
                               std::string kind, const std::vector<std::string>& children);
-// Says for what the bound and the end of a synchronized node do not hold. A pool has neither.
+// Says for what the bound and the end of a synchronized node do not hold.
 void append_fall_notes(const Shape& shape, const MeasuredNode& node,
                        std::vector<std::string>& notes);
 

@@ -84,6 +84,29 @@ TEST_CASE("a run that is joined where a step before it was longer has no bound o
   CHECK(Measured(tree, "a+.05 b+.1", 0, 2).measure.bound().value() == Approx(.2 + .1));
 }
 
+TEST_CASE("of a pool, only the waits of its members are measured") {
+  SynchronizedMeasure measure(2, Guards(), Synchronization::Resources, true);
+  const bool held[] = {false, true}, succeeded[] = {false, false};
+  for (int tick = 0; tick < 3; ++tick) {
+    const double progress[] = {tick == 1 ? 0.75 : 0.25, 0.0};
+    measure.after_tick({.time = tick * kPeriod,
+                        .ticked = true,
+                        .status = Status::Running,
+                        .used = progress,
+                        .progress = progress,
+                        .held = held,
+                        .succeeded = succeeded});
+  }
+  measure.run_ended(3 * kPeriod);
+  CHECK(measure.distance().samples() == 3);
+  CHECK(measure.held()[1].ticks() == 3);
+  CHECK(measure.held()[1].pauses() == 1);
+  CHECK(to_seconds(measure.held()[1].time()) == Approx(0.3));
+  CHECK_FALSE(measure.falls().while_ticked());
+  CHECK_FALSE(measure.falls().rise_while_held());
+  CHECK_FALSE(measure.step_length() > 0);
+}
+
 TEST_CASE("a node is sampled only in ticks that reach it") {
   const Measured measured("Sequence[memory=true](w ParallelRelative[delta=1](a b))",
                           "w=RRS a+.5 b+.5");
