@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iterator>
 #include <memory>
 #include <set>
@@ -20,11 +21,14 @@
 #include "record/read/recorded_moments.h"
 #include "record/use/recorded_properties.h"
 #include "run/leaf_audit.h"
+#include "tree/check/plugin_requests.h"
 #include "verify/property_watch.h"
 #include "verify/verifiable.h"
 
 namespace lockstep::host {
 namespace {
+
+constexpr std::size_t kMostNamed = 5;  // in one message
 
 struct LogCheckOptions {
   std::string file;
@@ -84,23 +88,40 @@ int check_properties(const LogCheckOptions& options) {
   });
 }
 
+// Which plugins of the tree are not there: "plugin 'motion' is not found", or "".
+std::string missing_plugins(const Loaded& loaded) {
+  std::set<std::string> names;
+  Diagnostics known;  // loading has told them
+  const auto there = loaded.plugins->list();
+  for (const PluginRequest& it : requested_plugins(*loaded.project, known)) {
+    if (std::ranges::find(there, it.name, &PluginSet::Info::name) == there.end())
+      names.insert(fmt::format("'{}'", brief(it.name)));
+  }
+  if (names.empty()) return {};
+  const bool is_one = names.size() == 1;
+  return fmt::format("{} {} {} not found", is_one ? "plugin" : "plugins",
+                     some_of(names, kMostNamed), is_one ? "is" : "are");
+}
+
 // A leaf of a plugin may do what its mock may not: an action of a program may take a tick more.
-void tell_of_mocks(const Definition& definition) {
+void tell_of_mocks(const Loaded& loaded) {
   std::set<std::string> types;
-  for (const DefinitionNode& it : definition.nodes) {
+  for (const DefinitionNode& it : loaded.definition.nodes) {
     if (it.type->mock != nullptr) types.insert(fmt::format("'{}'", brief(it.type->id)));
   }
   if (types.empty()) return;
-  constexpr std::size_t kMostNamed = 5;
-  print_note("no plugin has " + printable(some_of(types, kMostNamed)) + ": checked as mocks",
+  const std::string leaves = some_of(types, kMostNamed), missing = missing_plugins(loaded);
+  print_note(printable(missing.empty() ? fmt::format("no plugin has {}: checked as mocks", leaves)
+                                       : fmt::format("{}, so {} {} checked as {}", missing, leaves,
+                                                     types.size() == 1 ? "is" : "are",
+                                                     types.size() == 1 ? "a mock" : "mocks")),
              "give --plugin and --plugin-path as in the run");
 }
 
 // Compares what the leaves did with what the leaf file lets them do.
 int check_leaves(const LogCheckOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) -> int {
-    const RecordedTree recorded(reader.header(), options.tree, options.plugins,
-                                [](const Loaded& it) { tell_of_mocks(it.definition); });
+    const RecordedTree recorded(reader.header(), options.tree, options.plugins, tell_of_mocks);
     if (recorded.code() != kExitSuccess) return recorded.code();
     Diagnostics diagnostics;
     const auto file = load_leaf_file(options.leaves, diagnostics);
