@@ -45,10 +45,19 @@ void RunControl::report_effects() {
 }
 
 void RunControl::end(const Ticker& ticker) {
+  for (const GivenAnswer& it : untaken_) tell_vain_(it, Vain::RunEnds);
   for (const GivenAnswer& it : ticker.waiting_answers()) tell_vain_(it, Vain::RunEnds);
   is_paused_ = false;
   is_attended_ = true;
-  has_ended_.store(true, std::memory_order_release);
+  std::vector<Order> unseen;
+  {
+    const Lock lock(mutex_);
+    has_ended_.store(true, std::memory_order_release);
+    unseen.swap(new_);
+  }
+  for (const Order& it : unseen) {
+    if (it.what == Order::What::Answer) tell_vain_({it.node, 0, it.text, it.who}, Vain::RunEnds);
+  }
   effects_.ring();
 }
 
@@ -148,9 +157,19 @@ bool RunControl::answer(const Order& order, Ticker& ticker) {
 
 // An entry without a type keeps none, as one of a tree for BehaviorTree.CPP may.
 void RunControl::count_tick(Ticker& ticker) {
+  take_answers(ticker);
   reached_ = breakpoints_.reached(ticker);
   const bool is_last = ticks_left_ && --*ticks_left_ == 0;
   if (reached_ || is_last) pause(!reached_);
+}
+
+// A node takes its answer in its next tick. One that was halted before has told so.
+void RunControl::take_answers(const Ticker& ticker) {
+  const auto given = ticker.answers();
+  untaken_.insert(untaken_.end(), given.begin(), given.end());
+  std::erase_if(untaken_, [&](const GivenAnswer& it) {
+    return ticker.ticked(it.node) || ticker.status(it.node) != Status::Running;
+  });
 }
 
 void RunControl::pause(bool is_stepping) {

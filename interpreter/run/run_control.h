@@ -91,7 +91,8 @@ class RunControl {
   void count_tick(Ticker& ticker);
   // The run stands, or goes on: for state(). Until then a pause is only on its way.
   void report_standing(bool stands);
-  // The run ends: it does not wait for anybody, whatever has paused it.
+  // The run ends: it does not wait for anybody, whatever has paused it. Tells of each answer that
+  // nobody takes any more.
   void end(const Ticker& ticker);
   // Returns when there are orders, after `longest`, or when a signal comes.
   void wait(Nanoseconds longest);
@@ -103,6 +104,7 @@ class RunControl {
   Effect obey(const Order& order, Ticker& ticker, Blackboard& blackboard);
   void pause(bool is_stepping);
   static bool answer(const Order& order, Ticker& ticker);
+  void take_answers(const Ticker& ticker);
 
   std::atomic<bool> has_new_{false};
   mutable Mutex mutex_;
@@ -128,6 +130,7 @@ class RunControl {
   std::optional<std::uint64_t> ticks_left_ = {};  // until the next pause
   Breakpoints breakpoints_;
   std::optional<Breakpoint> reached_;
+  std::vector<GivenAnswer> untaken_;  // before the last tick, as of a node that is held
 };
 
 }  // namespace lockstep::host

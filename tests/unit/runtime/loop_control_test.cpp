@@ -164,6 +164,46 @@ TEST_CASE("a paused run obeys signals, its timeout and the order to halt") {
   signal_of_test = 0;
 }
 
+TEST_CASE("an answer that no tick takes is told at the end of the run, whenever it came") {
+  // s is held from tick 1 on, in tick 0 it asks.
+  const Tree tree = tree_from_text(
+      "ParallelAbsolute[barriers=.5](AlwaysRunning Sequence[memory=true](AlwaysSuccess "
+      "Ask[text=Now?]))");
+  constexpr NodeIndex kAsk = 4;
+  for (const std::uint64_t when : {0u, 3u, 5u}) {  // the last tick is 5
+    INFO("tick " << when);
+    Commanded it;
+    std::vector<std::string> told;
+    it.control.tell_vain_answers([&](const GivenAnswer& answer, RunControl::Vain why) {
+      CHECK(why == RunControl::Vain::RunEnds);
+      told.push_back(answer.answer + " of " + std::to_string(answer.node));
+    });
+    it.commander.on_tick = [&](std::uint64_t tick) {
+      if (tick == when) it.control.give({.what = What::Answer, .node = kAsk, .text = "yes"});
+    };
+    it.run(tree, at_ten_hertz(6));
+    CHECK(told == std::vector<std::string>{"yes of 4"});
+  }
+}
+
+TEST_CASE("an answer that comes in the tick that ends the run is told, too") {
+  const Tree tree = tree_from_text("Parallel[success_count=1](Wait[seconds=.2] Ask[text=Now?])");
+  Commanded it;
+  std::size_t told = 0;
+  it.control.tell_vain_answers([&](const GivenAnswer& answer, RunControl::Vain why) {
+    CHECK(why == RunControl::Vain::RunEnds);
+    CHECK(answer.who == "maria");
+    ++told;
+  });
+  it.commander.on_tick = [&](std::uint64_t tick) {
+    if (tick != 2) return;
+    it.control.give({.what = What::Answer, .node = 2, .text = "yes", .who = "maria"});
+    it.control.give({.what = What::Resume});
+  };
+  CHECK(it.run(tree, at_ten_hertz(6)).ticks == 3);
+  CHECK(told == 1);
+}
+
 TEST_CASE("steps that are ordered together add up") {
   TimedLeaves leaves(1);
   Commanded it;
