@@ -58,6 +58,7 @@ Json json_of(const ShapeNode& node, std::size_t index) {
 
 Json json_of(const ShapeEntry& entry) {
   Json json = {{lines::kHeaderEntry["key"], entry.key}, {lines::kHeaderEntry["type"], entry.type}};
+  if (entry.typing == Typing::Strict) json[lines::kHeaderEntry["strict"]] = true;
   if (!entry.writers.empty()) json[lines::kHeaderEntry["writers"]] = entry.writers;
   return json;
 }

@@ -207,6 +207,9 @@ constexpr Object kHeaderNode{"HeaderNode", kHeaderNodeFields};
 constexpr Field kHeaderEntryFields[] = {
     {"key", "Text", kAlways, "its key"},
     {"type", "Text", kAlways, "its type"},
+    {"strict", "Yes", kMaybe,
+     "for an entry that holds values of its type only. Absent where an entry may have a value of "
+     "another type, as in a tree for BehaviorTree.CPP, and in recordings of earlier versions"},
     {"writers", "Index[]", kMaybe,
      "only if there are any: the nodes with a port or a script that may write it"},
 };

@@ -77,7 +77,7 @@ struct ShapeNode {
 struct ShapeEntry {
   std::string key, type;                // of the blackboard
   std::vector<NodeIndex> writers = {};  // the nodes that may write it
-  // Of a tree that runs: what it may hold. Not known of a recording.
+  // Of a tree that runs: what it may hold. Of a recording, only whether that is strict is known.
   ValueType value_type = ValueType::String;
   std::optional<Typing> typing = {};
 };

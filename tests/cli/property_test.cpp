@@ -115,6 +115,31 @@ TEST_CASE("log check: a mistake in a property is reported at its column") {
   CHECK(check(recording, {}).code == 2);
 }
 
+TEST_CASE("log check: a recording knows which entries hold values of their type only") {
+  const TemporaryDirectory directory;
+  const auto recorded = [&](const std::string& text) {
+    const std::string tree = directory.file("tree.xml", text), file = directory.path("run.jsonl");
+    REQUIRE(run_tree(tree, {"--record", file}).code == 0);
+    return file;
+  };
+  const std::string script = "<BehaviorTree ID=\"Main\"><Script code=\"count := 3\"/>";
+  const std::string wrong = "never {count} == '4'";
+  const std::string strict = recorded("<root lockstep=\"1\">" + script + "</BehaviorTree></root>");
+  const Outcome refused = check(strict, {wrong});
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err, "'count' is of the type int"));
+  CHECK(contains(refused.err, "hint: compare it with a number"));
+  // One of an earlier version does not tell.
+  std::string older = read_file(strict);
+  REQUIRE(contains(older, R"("strict":true,)"));
+  older.replace(older.find(R"("strict":true,)"), 14, "");
+  CHECK(check(directory.file("older.jsonl", older), {wrong}).code == 0);
+  // In a tree for BehaviorTree.CPP, an entry may also get a text.
+  const std::string theirs =
+      recorded("<root BTCPP_format=\"4\">" + script + "</BehaviorTree></root>");
+  CHECK(check(theirs, {wrong}).code == 0);
+}
+
 TEST_CASE("log check --property-file reads a property from each line") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory);

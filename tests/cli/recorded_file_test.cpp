@@ -93,8 +93,9 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
   CHECK(contains(all[1], R"([[0,"0.5"]])"));
   CHECK(contains(all[2], R"([[0,"0.4;0.8"]])"));
   const auto header = parse_json(lines(read_file(file))[0]);
-  CHECK(header["entries"] == parse_json(R"([{"key":"plan","type":"list of double","writers":[3]},
-                                                       {"key":"s","type":"double"}])"));
+  CHECK(header["entries"] == parse_json(R"([
+      {"key":"plan","type":"list of double","strict":true,"writers":[3]},
+      {"key":"s","type":"double","strict":true}])"));
   CHECK(recorded("logs", {"--log-level", "none"}) ==
         std::vector<std::string>{R"(0[["Main/Sequence/Say","info","says: a \"word\""]])"});
   const Outcome replay = run_lockstep({"replay", file, "--print", "--at", "0"});

@@ -91,10 +91,11 @@ bool is_ignore(JsonValue value, std::size_t index) {
   throw JsonError(fmt::format("'idle' of node {} is neither 'wait' nor 'ignore'", index));
 }
 
-bool is_yes(JsonValue value, std::string_view key, std::size_t index) {
+bool is_yes(JsonValue value, std::string_view key, std::size_t index,
+            std::string_view what = "node") {
   bool yes = false;
   if (value.get(yes) && yes) return true;
-  throw JsonError(fmt::format("'{}' of node {} is not true", key, index));
+  throw JsonError(fmt::format("'{}' of {} {} is not true", key, what, index));
 }
 
 // A recording names kinds, and does not say in which language: where one has a fact, it counts.
@@ -196,6 +197,12 @@ std::vector<ShapeEntry> keys_from(JsonValue value) {
     ShapeEntry& it = keys.emplace_back();
     item.object().read({{lines::kHeaderEntry["key"], into(it.key)},
                         {lines::kHeaderEntry["type"], into(it.type)},
+                        {lines::kHeaderEntry["strict"],
+                         [&](JsonValue strict) {
+                           if (is_yes(strict, "strict", keys.size() - 1, "entry"))
+                             it.typing = Typing::Strict;
+                         },
+                         kMayLack},
                         {lines::kHeaderEntry["writers"],
                          [&](JsonValue writers) {
                            writers.each_item([&](JsonValue writer) {

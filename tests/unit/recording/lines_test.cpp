@@ -218,7 +218,7 @@ std::string sample_header(std::uint64_t first_tick) {
   header.clock = "virtual";
   header.first_tick = first_tick;
   if (first_tick > 0) header.resumed_after.reset();  // the line behind it has not the whole state
-  header.entries = {{.key = "k", .type = "number", .writers = {2}}};
+  header.entries = {{.key = "k", .type = "number", .writers = {2}, .typing = Typing::Strict}};
   const auto add = [&](const char* path, std::optional<NodeIndex> parent) -> ShapeNode& {
     ShapeNode& node = header.nodes.emplace_back();
     node.path = node.kind = node.name = path;

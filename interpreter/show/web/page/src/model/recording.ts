@@ -106,6 +106,7 @@ export interface HeaderNode {
 export interface HeaderEntry {
   key: string;
   type: string;
+  strict?: boolean;
   writers?: number[];
 }
 
