@@ -916,6 +916,75 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
   }
 }
 
+// A program registers RED, so no file has its number. In lockstep's language it is an entry.
+TEST_CASE("convert refuses the name of a number that a program registers") {
+  const TemporaryDirectory directory;
+  const auto convert = [&](const std::string& nodes, const std::string& others = "") {
+    const std::string tree = directory.file(
+        "tree.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Sequence>\n" + nodes +
+                        "\n</Sequence></BehaviorTree>" + others + "</root>\n");
+    return run_lockstep({"convert", tree});
+  };
+  const std::string red = "<ScriptCondition code=\"color == RED\"/>";
+  const std::string unused = "<BehaviorTree ID=\"Unused\"><A/></BehaviorTree>";  // no main tree
+  const Row refused[] = {
+      {red, "2:33: error: the name 'RED' of a number cannot be expressed in lockstep's language"},
+      {red,
+       "hint: write the number that a program registers for it; no port or script here makes "
+       "it an entry, as 'RED := 0' does"},
+      {"<A red=\"{Red}\" _skipIf=\"state != STATE_OK\"/>", "2:34: error: the name 'STATE_OK'"},
+      {"<Script code=\"x := B2\"/>", "2:20: error: the name 'B2'"},
+      {"<A to=\"{n}\"/><Script code=\"n := 1\"/><Switch2 variable=\"{n}\" case_1=\"RED\" "
+       "case_2=\"2\"><A/><A/><A/></Switch2>",
+       "2:61: error: the name 'RED' of a number cannot"},
+  };
+  for (const Row& row : refused) {
+    for (const std::string& others : {std::string(), unused}) {
+      const Outcome outcome = convert(row.node, others);
+      INFO(row.node << outcome.err);
+      if (!others.empty() && contains(row.node, "Switch2")) continue;  // types are not known
+      CHECK(outcome.code == 3);
+      CHECK(outcome.out.empty());
+      CHECK(contains(outcome.err, row.message));
+    }
+  }
+  const std::string made[] = {
+      "<A port=\"{RED}\"/>",
+      "<A RED=\"{=}\"/>",
+      "<A RED=\"=\"/>",
+      "<Script code=\"RED := 1\"/>",
+      "<AlwaysSuccess _onSuccess=\"a := RED := 2\"/>",
+      "<SetBlackboard output_key=\"RED\" value=\"1\"/>",
+      "<SubTree ID=\"Other\" RED=\"1\"/>",
+  };
+  for (const std::string& it : made) {
+    const Outcome outcome = convert(it + red, unused);
+    INFO(it << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.out, "color == RED"));
+  }
+  const std::string models =
+      "<TreeNodesModel><SubTree ID=\"Main\"><input_port name=\"RED\"/></SubTree></TreeNodesModel>";
+  CHECK(convert(red, unused + models).code == 0);
+  directory.file("part.xml",
+                 "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Part\"><Script code=\"RED := 1\"/>"
+                 "</BehaviorTree></root>");
+  CHECK(convert(red, unused + "<include path=\"part.xml\"/>").code == 0);
+  // A word of a status is no name. Texts and names that are not in upper case are left alone.
+  const Outcome words = convert(
+      "<A name=\"arm\"/><WaitUntil code=\"status(arm) == SUCCESS\"/>"
+      "<ScriptCondition code=\"color == 'RED' || Red\"/>",
+      unused);
+  INFO(words.err);
+  CHECK(words.code == 0);
+  const Outcome open = convert(
+      "<A to=\"{n}\"/><Switch2 variable=\"{n}\" case_1=\"RED\" "
+      "case_2=\"2\"><A/><A/><A/></Switch2>");
+  CHECK(open.code == 0);
+  CHECK(
+      contains(open.err, "a number to which a program gives the name RED equals that case there"));
+}
+
 TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
   const TemporaryDirectory directory;
   const Row rows[] = {

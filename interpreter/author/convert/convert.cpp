@@ -12,6 +12,7 @@
 #include "author/convert/declared_arguments.h"
 #include "author/convert/entry_types.h"
 #include "author/convert/marked_keys.h"
+#include "author/convert/number_names.h"
 #include "author/convert/script_text.h"
 #include "author/convert/set_blackboard.h"
 #include "author/convert/since_4.h"
@@ -71,6 +72,7 @@ class Converter {
         circumstances_(document, conversion),
         marked_keys_(document, conversion, circumstances_),
         types_(conversion.meaning),
+        numbers_(document, conversion),
         text_(document.source()->text()),
         scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict),
         reads_nodes_(reads_nodes(document)),
@@ -609,7 +611,7 @@ class Converter {
   }
 
   tl::expected<std::string, Expression::Error> converted_script(std::string_view script) const {
-    return to_ours() ? script_to_ours(script) : script_to_theirs(script);
+    return to_ours() ? script_to_ours(script, numbers_) : script_to_theirs(script);
   }
 
   bool is_fixed(std::string_view name) const {
@@ -755,6 +757,7 @@ class Converter {
   Circumstances circumstances_;
   MarkedKeys marked_keys_;
   EntryTypes types_;
+  const NumberNames numbers_;
   std::string_view text_;
   Scanner scanner_;
   const bool reads_nodes_;

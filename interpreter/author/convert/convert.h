@@ -20,6 +20,7 @@ struct Conversion {
   const Catalog& to_nodes;    // and of the other one
   const Models& models;       // of the document, and of the files that it includes
   const Definition* meaning;  // of its main tree; null: it has errors, or none
+  const Project* project;     // the document and the files that it includes; null: not known
 };
 
 // Nothing, with errors, if something in it cannot be said in the other language. Marks of editors

@@ -1,7 +1,6 @@
 #include "author/convert/marked_keys.h"
 
-#include <algorithm>
-
+#include "author/convert/scripts.h"
 #include "base/core/identifier.h"
 #include "base/core/pre_order.h"
 #include "language/expression/token.h"
@@ -23,15 +22,10 @@ void MarkedKeys::find_in(std::uint32_t tree) {
       ++subtrees_[inner];
       if (circumstances_.passes_on_all(node)) passed_on_[tree].push_back(inner);
     }
-    const NodeType* const type = conversion_.from_nodes.find(circumstances_.type_of(node));
-    const auto parameters = type == nullptr ? std::span<const Parameter>() : type->parameters;
+    const NodeType* const type = type_at(document_, node, conversion_.from_nodes);
     for (const Attribute& it : document_.attributes(node)) {
-      const auto parameter = std::ranges::find(parameters, it.name, &Parameter::name);
-      const bool is_port = parameter != parameters.end();
-      const bool is_script = is_port && parameter->is_script && !parameter->is_template;
-      if (is_script || hook_named(it.name, conversion_.from)) find_in_script(it.value, keys);
-      const bool is_name = is_port && (parameter->is_key || parameter->names_entry);
-      if (is_name && it.value.starts_with('_')) keys.insert(it.value);
+      if (is_script_at(it.name, type, conversion_.from)) find_in_script(it.value, keys);
+      if (is_entry_at(it.name, type) && it.value.starts_with('_')) keys.insert(it.value);
       for (auto at = it.value.find("{_"); at != it.value.npos; at = it.value.find("{_", at + 1)) {
         const std::string_view key = it.value.substr(at + 1, it.value.find('}', at) - at - 1);
         if (is_identifier(key)) keys.insert(key);

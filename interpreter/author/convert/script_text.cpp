@@ -56,8 +56,8 @@ Converted script_to_theirs(std::string_view script) {
 }
 
 // Its words 'and' and 'or' are names there, and "@key" is an entry of the main tree.
-Converted script_to_ours(std::string_view script) {
-  return convert_tokens(script, [](const Token& token, std::string_view written) -> Converted {
+Converted script_to_ours(std::string_view script, const NumberNames& numbers) {
+  return convert_tokens(script, [&](const Token& token, std::string_view written) -> Converted {
     if (token.symbol != Symbol::Name) return std::string(written);
     if (token.text == "and" || token.text == "or") {
       return cannot(fmt::format("an entry called '{}'", token.text), "there it is an operator",
@@ -69,6 +69,13 @@ Converted script_to_ours(std::string_view script) {
           fmt::format("give it to the tree by an attribute of its SubTree: {0}=\"{{{0}}}\"",
                       brief(token.text.substr(1))),
           token);
+    }
+    if (numbers.has(token.text)) {
+      return cannot(fmt::format("the name '{}' of a number", brief(token.text)),
+                    fmt::format("write the number that a program registers for it; no port or "
+                                "script here makes it an entry, as '{} := 0' does",
+                                brief(token.text)),
+                    token);
     }
     return std::string(written);
   });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "author/convert/number_names.h"
 #include "base/core/identifier.h"
 #include "base/core/value.h"
 #include "base/core/wording.h"
@@ -32,6 +33,7 @@ class Switch {
     std::vector<std::string> values;
     for (std::uint32_t number = 1; number <= cases; ++number) values.push_back(case_of(number));
     compare_cases(values);
+    warn_of_names(values);
     add("on", on);
     add("cases", to_text(Value(std::move(values))));
     return std::move(result_);
@@ -107,6 +109,15 @@ class Switch {
     }
   }
 
+  // For BehaviorTree.CPP a text may be the name of a number, too, but not where an entry is a text.
+  void warn_of_names(std::span<const std::string> cases) {
+    const auto name = std::ranges::find_if(cases, is_in_upper_case);
+    if (type_ || name == cases.end()) return;
+    result_.difference +=
+        fmt::format("; a number to which a program gives the name {} equals that case there only",
+                    brief(*name));
+  }
+
   // An entry or a text, as a script.
   std::string on_of(std::string_view name) {
     const std::string_view value = value_of(name);
@@ -131,6 +142,10 @@ class Switch {
     for (std::uint32_t before = 1; before < number; ++before) {
       if (value_of(case_name(before)) != value) continue;
       refuse(name, "a case that is given twice", "remove it and its child, which is never chosen");
+    }
+    if (is_number() && is_in_upper_case(value)) {
+      refuse(name, fmt::format("the name '{}' of a number", brief(value)),
+             "write the number that a program registers for it");
     }
     return std::string(value);
   }

@@ -111,9 +111,11 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
                             ? read_models(*before.project, {before.project->sources, told_by_check})
                             : Models();
   const Definition* const meaning = before.definition ? &*before.definition : nullptr;
-  auto result = is_older
-                    ? convert_since_4(*document, to_nodes, report)
-                    : convert(*document, {from, to, from_nodes, to_nodes, models, meaning}, report);
+  auto result =
+      is_older ? convert_since_4(*document, to_nodes, report)
+               : convert(*document,
+                         {from, to, from_nodes, to_nodes, models, meaning, before.project.get()},
+                         report);
   if (result && !before.found.has_errors())
     check_result(name, std::move(before), *result, diagnostics);
   return result;
