@@ -26,6 +26,24 @@ Outcome run_mocked(const std::string& tree, std::vector<std::string> more) {
 
 }  // namespace
 
+// In version 3, "place" in a SubTree named an entry. BehaviorTree.CPP 4 reads it as a text.
+TEST_CASE("run reads a value of version 3 as version 4 does, and convert keeps what it meant") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("3.xml", R"(<root main_tree_to_execute="M">
+<BehaviorTree ID="M"><Sequence><SetBlackboard output_key="place" value="dock"/>
+<SubTree ID="Go" to="place"/></Sequence></BehaviorTree>
+<BehaviorTree ID="Go"><ScriptCondition code="to == 'dock'"/></BehaviorTree></root>)");
+  const auto result = [](const std::string& file) {
+    return parse_json(run_mocked(file, {}).out)["result"].get<std::string>();
+  };
+  CHECK(result(tree) == "failure");
+  CHECK(contains(run_lockstep({"check", tree}).err,
+                 "3.xml:3:22: warning: 'place' is a text here; before version 4 it could be"));
+  const Outcome four = run_lockstep({"convert", "--to", "btcpp4", tree});
+  CHECK(contains(four.err, "3.xml:3:22: warning: 'place' is taken for an entry"));
+  CHECK(result(directory.file("4.xml", four.out)) == "success");
+}
+
 TEST_CASE(
     "an entry that is removed and written again in a tick has its new value for all who watch") {
   const TemporaryDirectory directory;
