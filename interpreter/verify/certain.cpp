@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/core/audience.h"
 #include "base/core/language.h"
 #include "base/core/wording.h"
 #include "engine/writers.h"
@@ -53,7 +54,7 @@ class Certainties {
           {"always-fault"_code, node, severity(),
            fmt::format("each tick of '{}' is a fault, {}: {}", tree_.labels[node].name,
                        premise("whatever the leaves do"), fault.first),
-           why_unset(node)});
+           hint_of_fault(node, fault.first)});
     }
   }
 
@@ -126,6 +127,59 @@ class Certainties {
       }
     });
     return why;
+  }
+
+  // Each run may be given the value that is missing: --set, a start value.
+  std::string hint_of_fault(NodeIndex node, std::string_view fault) const {
+    const std::string why = why_unset(node);
+    const Slot* const slot = missing_in(node, fault);
+    if (slot == nullptr) return why;
+    return fmt::format("{}{}{}", why, why.empty() ? "" : "; or ", how_to_give(slot->name));
+  }
+
+  // An entry of the main tree that the node reads and the fault names, and that has no value then;
+  // null: none.
+  const Slot* missing_in(NodeIndex node, std::string_view fault) const {
+    const Slot* missing = nullptr;
+    const auto look_at = [&](std::uint32_t number, std::string_view quoted) {
+      if (missing == nullptr && is_never_written(number, node) && fault.find(quoted) != fault.npos)
+        missing = &tree_.slots[number];
+    };
+    for (const std::uint32_t number : scripts_of(node)) {
+      const Script& script = tree_.scripts[number];
+      for (std::size_t i = 0; script.code != nullptr && i < script.slots.size(); ++i) {
+        if (script.code->uses()[i].is_read)
+          look_at(script.slots[i], fmt::format("'{}'", script.code->names()[i]));
+      }
+    }
+    for (const BoundNode& it : tree_.bound) {
+      if (it.node != node) continue;
+      for (std::size_t i = 0; i < it.kind->type.parameters.size(); ++i) {
+        const std::uint32_t slot = tree_.ports[it.first_port + i].slot;
+        if (slot != PortBinding::kUnbound)
+          look_at(slot, fmt::format("'{{{}}}'", tree_.slots[slot].name));
+      }
+    }
+    return missing;
+  }
+
+  // Whether an entry that a person may give a value has none before the node has written one.
+  bool is_never_written(std::uint32_t number, NodeIndex node) const {
+    const Slot& slot = tree_.slots[number];
+    const bool is_inner = slot.name.find('/') != std::string::npos;
+    return !is_inner && std::holds_alternative<NoValue>(slot.initial) &&
+           std::ranges::none_of(writers_[number], [&](NodeIndex writer) {
+             return writer != node && found_.coverage.was_ticked(writer);
+           });
+  }
+
+  std::vector<std::uint32_t> scripts_of(NodeIndex node) const {
+    std::vector<std::uint32_t> all{own_script(node)};
+    for (const HookedNode& it : tree_.hooked) {
+      if (it.node == node) all.insert(all.end(), std::begin(it.scripts), std::end(it.scripts));
+    }
+    std::erase_if(all, [&](std::uint32_t it) { return it >= tree_.scripts.size(); });
+    return all;
   }
 
   // Calls use(script, "its while") for those that decide before its tick.

@@ -53,12 +53,20 @@ constexpr AdviceRow kAdviceRows[] = {
    "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
    "each tick of 'a' is a fault, whatever the leaves do: its while: '<' takes two numbers or two texts, or a "
    "number and the text of one, not the entry 'k' without a value and 2: its while reads 'k', which has no value "
-   "yet: 'Script' writes it, which comes after\n"},
+   "yet: 'Script' writes it, which comes after; or give it a value with --set k=…\n"},
   {"a condition reads what only a later node writes",
    "Sequence(Check[code=k<2] Script[code=k:=1])",
    "each tick of 'Check' is a fault, whatever the leaves do: its code: '<' takes two numbers or two texts, or a "
    "number and the text of one, not the entry 'k' without a value and 2: it reads 'k', which has no value yet: "
-   "'Script' writes it, which comes after\n"},
+   "'Script' writes it, which comes after; or give it a value with --set k=…\n"},
+  {"a script behind the result reads what only a later node writes",
+   "Sequence[memory=true](Script[code=y:=0 on_success=y:=k] Script[code=k:=1])",
+   "each tick of 'Script' is a fault, whatever the leaves do: its on_success: cannot assign to 'y': the right side "
+   "is the entry 'k' without a value: give it a value with --set k=…\n"},
+  {"a parameter that only a later node writes",
+   "Sequence[memory=true](Wait[seconds={t}] Script[code=t:=1.5])",
+   "each tick of 'Wait' is a fault, whatever the leaves do: 'seconds' has no value: nothing has written the entry "
+   "'{t}': give it a value with --set t=…\n"},
   {"a fault that each tick has, by types", "Sequence(Script[code=y:=0] Script[code=y:=y/0] a)",
    "each tick of 'Script' is a fault, whatever the leaves do: its code: cannot assign NaN (such as 0/0) to 'y', "
    "which has the type int\n"},
@@ -68,12 +76,12 @@ constexpr AdviceRow kAdviceRows[] = {
    "Parallel(a[while=k<2] Script[code=k:=1])",
    "each tick of 'a' is a fault, whatever the leaves do: its while: '<' takes two numbers or two texts, or a "
    "number and the text of one, not the entry 'k' without a value and 2: its while reads 'k', which has no value "
-   "yet: 'Script' writes it, which comes after\n"},
+   "yet: 'Script' writes it, which comes after; or give it a value with --set k=…\n"},
   {"a while of an entry in front of a node that counts time",
    "Parallel(Sequence[while=k<2](Wait[seconds=1] a) Script[code=k:=1])",
    "each tick of 'Sequence' is a fault, whatever the leaves do: its while: '<' takes two numbers or two texts, or "
    "a number and the text of one, not the entry 'k' without a value and 2: its while reads 'k', which has no value "
-   "yet: 'Script' writes it, which comes after\n"},
+   "yet: 'Script' writes it, which comes after; or give it a value with --set k=…\n"},
   {"the rate decides which is first",
    "Parallel(Sequence[memory=true](Wait[seconds=0.3] b[while=k<2]) "
    "Sequence[memory=true](Wait[seconds=0.2] Script[code=k:=1]))", ""},

@@ -2,6 +2,9 @@
 // embeds lockstep, which has called functions. Each calls the same by another name.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 namespace lockstep::host {
 
 // As long as it lives, what this thread does is for a program.
@@ -23,5 +26,8 @@ template <class Text>
 Text worded(Text for_command_line, Text for_program) {
   return is_for_program() ? for_program : for_command_line;
 }
+
+// How an entry of the main tree gets a value before a run: "give it a value with --set speed=…".
+std::string how_to_give(std::string_view entry);
 
 }  // namespace lockstep::host

@@ -395,8 +395,9 @@ class Adviser {
       std::string hint =
           did_you_mean(std::string_view(key).substr(scope.size()), keys_in(scope, there));
       if (hint.empty())
-        hint = fmt::format("'{} := …' makes it; so does a port that names it",
-                           script.code->names()[name]);
+        hint = fmt::format("'{} := …' makes it; so does a port that names it{}",
+                           script.code->names()[name],
+                           scope.empty() ? "; or " + how_to_give(key) : "");
       report_.in_value("missing-entry"_code, script.place, script.code->uses()[name].offset,
                        fmt::format("nothing makes the entry '{}'", brief(key)), std::move(hint),
                        Severity::Warning);
@@ -441,8 +442,7 @@ class Adviser {
                          parameter->name);
     }
     if (!scope.empty()) return hint + "give it a value by an attribute of the SubTree";
-    return hint + worded(fmt::format("give it a value with --set {}=…", brief(name)),
-                         std::string("give it a start value"));
+    return hint + how_to_give(name);
   }
 
   template <class Visit>
