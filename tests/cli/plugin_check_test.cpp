@@ -84,6 +84,12 @@ TEST_CASE("plugin check: what breaks the contract is named, with its leaf") {
       {"describes_another",
        "wrong 'Shape' with kind=\"1\": plugin 'shapes' is malformed: what it describes for "
        "'Shape' "},
+      {"describes_otherwise",
+       "wrong 'Shape' with kind=\"round\" has other ports when it is described again: the same "
+       "constants give the same ports\n"},
+      {"describes_never",
+       "wrong 'Shape' has no element: describe refuses each choice and default of its fixed "
+       "ports\n"},
       {"init_refuses", "wrong "}};
   for (const auto& [name, message] : cases) {
     const Outcome outcome = check_plugin(abi_plugin(name));
@@ -220,6 +226,10 @@ for line in sys.stdin:
       {R"({"ports":[{"name":"radius","type":"double"}]})",
        "wrong 'Shape' with kind=\"round\" has the port 'radius', which no pattern of more_ports",
        4},
+      {R"({"refused":"not now"})",
+       "wrong 'Shape' has no element: describe refuses each choice and default of its fixed", 4},
+      {R"({"refused":"not now"})" + ('\n' + width),
+       "wrong 'Shape' with kind=\"round\" is described only when it is asked again: not now", 4},
       {radius + '\n' + width,
        "wrong 'Shape' with kind=\"round\" has other ports when it is described again: ", 4},
       {R"({"ports":[{"name":"size.r","type":"int"},{"name":"size.r","type":"int"}]})",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lockstep::host {
 
 std::vector<FixedText> fixed_texts(const ElementTexts& texts) {
@@ -32,6 +34,12 @@ std::vector<ElementTexts> sample_elements(const NodeType& type) {
     }
   }
   return all;
+}
+
+bool declares_samples(const NodeType& type) {
+  return std::ranges::all_of(type.parameters, [](const Parameter& it) {
+    return !it.constant || it.default_text || !it.choices.empty();
+  });
 }
 
 }  // namespace lockstep::host

@@ -37,6 +37,9 @@ class ElementTypes {
   // The type of an element with these constants, which lives as long as this. Any thread may ask.
   virtual tl::expected<const NodeType*, ElementRefusal> type_of(
       std::span<const FixedText> fixed) const = 0;
+  // Asks the plugin once more. What differs from type_of(fixed), after "it", the element; "":
+  // nothing.
+  virtual std::string asked_again(std::span<const FixedText> fixed) const = 0;
 };
 
 // The texts that decide the type of an element. `given` returns what the element gives to a
@@ -60,6 +63,9 @@ std::optional<std::vector<FixedText>> fixed_texts(const NodeType& type, Given gi
 // Elements of the type that are to be tried out, each with its constants: one for each choice of
 // the first parameter that has choices.
 std::vector<ElementTexts> sample_elements(const NodeType& type);
+// Whether the type declares each constant of these elements, as a choice or a default. Then some of
+// them exist. Otherwise they are guessed.
+bool declares_samples(const NodeType& type);
 
 // Whether a list of patterns like "goal.*;result.*" has one for the name.
 constexpr bool matches_any(std::string_view patterns, std::string_view name) {

@@ -10,6 +10,9 @@
 #ifndef SHAPE_DESCRIBE
 #define SHAPE_DESCRIBE describe
 #endif
+#ifndef SHAPE_DEFAULT /* a kind */
+#define SHAPE_DEFAULT NULL
+#endif
 
 typedef struct shape {
   const char* kind;
@@ -58,6 +61,7 @@ static const lockstep_port kind_port = {.struct_size = sizeof(lockstep_port),
                                         .direction = LOCKSTEP_INPUT,
                                         .name = "kind",
                                         .doc = "which shape",
+                                        .default_value = SHAPE_DEFAULT,
                                         .flags = LOCKSTEP_FIXED};
 static const lockstep_port area_port = {.struct_size = sizeof(lockstep_port),
                                         .type = LOCKSTEP_DOUBLE,

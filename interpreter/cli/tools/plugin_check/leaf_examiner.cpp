@@ -445,16 +445,24 @@ void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugin
     return note("lockstep's language has a node of that name");
   }
   if (type.element_types == nullptr) return Examiner(type, {}, plugins, report).examine();
+  bool has_elements = false;
   for (const ElementTexts& constants : sample_elements(type)) {
     const auto described = type.element_types->type_of(fixed_texts(constants));
-    if (described) {
+    const bool is_wrong = !described && is_breach(described.error());
+    has_elements |= described || is_wrong;
+    if (const std::string again =
+            is_wrong ? "" : type.element_types->asked_again(fixed_texts(constants));
+        !again.empty()) {
+      has_elements = true;  // that is told
+      report.note(false, fmt::format("'{}' with {} {}", type.id, to_text(constants), again));
+    } else if (described) {
       if (const auto port = port_without_pattern(type, **described); !port.empty())
         report.note(false,
                     fmt::format("'{}' with {}: has the port '{}', which no pattern of more_ports "
                                 "allows",
                                 type.id, to_text(constants), port));
       Examiner(**described, constants, plugins, report).examine();
-    } else if (is_breach(described.error())) {
+    } else if (is_wrong) {
       const Problem& why = described.error().why;
       report.note(false, fmt::format("'{}' with {}: {}{}{}", type.id, to_text(constants),
                                      why.message, why.hint.empty() ? "" : "; ", why.hint));
@@ -462,6 +470,7 @@ void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugin
       note(fmt::format("no element has {}: {}", to_text(constants), described.error().why.message));
     }
   }
+  if (!has_elements && declares_samples(type)) report.note(false, describes_nothing(type));
 }
 
 }  // namespace lockstep::host

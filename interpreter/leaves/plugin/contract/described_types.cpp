@@ -22,6 +22,15 @@ tl::unexpected<ElementRefusal> undescribed(std::string message, std::string hint
   return tl::unexpected(ElementRefusal{{}, {std::move(message), std::move(hint)}});
 }
 
+// What a tree sees of the ports, in the order of their names.
+std::vector<std::string> ports_of(const lockstep_leaf_type& type) {
+  std::vector<std::string> ports;
+  for (const lockstep_port* const it : std::span(type.ports, type.port_count))
+    ports.push_back(fmt::format("{} {} {} {}", it->name, it->type, it->direction, it->flags));
+  std::ranges::sort(ports);
+  return ports;
+}
+
 // Texts that end with a NUL, for the plugin.
 struct FixedTable {
   explicit FixedTable(std::span<const FixedText> fixed) {
@@ -51,6 +60,18 @@ class DescribedTypes final : public ElementTypes {
     const Lock lock(mutex_);
     if (const auto known = known_.find(key); known != known_.end()) return known->second.type();
     return known_.emplace(std::move(key), make(fixed)).first->second.type();
+  }
+
+  std::string asked_again(std::span<const FixedText> fixed) const override {
+    const auto before = type_of(fixed);
+    // The plugin may write the second answer over the first.
+    const auto ports = before ? ports_of(*(*before)->leaf) : std::vector<std::string>();
+    const Known again = make(fixed);
+    if (again.leaf == nullptr)
+      return before ? "is not described twice: " + again.refusal.why.message : std::string();
+    if (!before) return "is described only when it is asked again: " + before.error().why.message;
+    if (ports_of(again.leaf->type) == ports) return {};
+    return "has other ports when it is described again: the same constants give the same ports";
   }
 
  private:
@@ -143,6 +164,13 @@ std::string_view port_without_pattern(const NodeType& type, const NodeType& desc
     if (!is_own && !matches_any(type.more_parameters, it.name)) return it.name;
   }
   return {};
+}
+
+std::string describes_nothing(const NodeType& type) {
+  return fmt::format(
+      "'{}' has no element: describe refuses each choice and default of its fixed "
+      "ports",
+      type.id);
 }
 
 std::unique_ptr<const ElementTypes> described_types(const HostedPlugin& plugin,

@@ -24,6 +24,9 @@ bool is_breach(const ElementRefusal& refusal);
 // none. The contract forbids it, and no tree can bind it by an attribute.
 std::string_view port_without_pattern(const NodeType& type, const NodeType& described);
 
+// That each of the elements whose constants the type declares is refused.
+std::string describes_nothing(const NodeType& type);
+
 // The types of the elements of `leaf`. It and `plugin` outlive the result.
 std::unique_ptr<const ElementTypes> described_types(const HostedPlugin& plugin,
                                                     const Descriptors::Leaf& leaf);

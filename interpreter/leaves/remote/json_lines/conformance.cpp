@@ -183,12 +183,18 @@ class Examiner {
   }
 
   void describe_elements(const NodeType& type, std::vector<Tried>& all) {
+    bool has_elements = false;
     for (const ElementTexts& constants : sample_elements(type)) {
       const auto described = type.element_types->type_of(fixed_texts(constants));
       const std::string who = fmt::format("'{}' with {} ", type.id, to_text(constants));
+      has_elements |= described.has_value();
       if (!described) {
-        note(!is_breach(described.error()) && !conversation_.is_gone(),
-             who + "is not tried: " + described.error().why.message);
+        const bool is_wrong = is_breach(described.error()) || conversation_.is_gone();
+        const std::string again =
+            is_wrong ? "" : type.element_types->asked_again(fixed_texts(constants));
+        has_elements |= is_wrong || !again.empty();  // that is told
+        note(!is_wrong && again.empty(),
+             who + (again.empty() ? "is not tried: " + described.error().why.message : again));
         continue;
       }
       all.push_back({*described, constants});
@@ -197,6 +203,7 @@ class Examiner {
            who +
                (wrong.empty() ? "has " + counted((*described)->parameters.size(), "port") : wrong));
     }
+    if (!has_elements && declares_samples(type)) note(false, describes_nothing(type));
   }
 
   // What is wrong with the ports that an element was described with; "": nothing.
@@ -204,19 +211,7 @@ class Examiner {
                         const ElementTexts& constants) {
     if (const auto port = port_without_pattern(type, described); !port.empty())
       return fmt::format("has the port '{}', which no pattern of more_ports allows", port);
-    const auto again = describer_.describe(type.id, fixed_texts(constants));
-    if (!again) return "is not described twice: " + again.error().why.message;
-    if (ports_of(**again) == ports_of(*described.leaf)) return {};
-    return "has other ports when it is described again: the same constants give the same ports";
-  }
-
-  // What a tree sees of them, in the order of their names.
-  static std::vector<std::string> ports_of(const lockstep_leaf_type& type) {
-    std::vector<std::string> ports;
-    for (const lockstep_port* const it : std::span(type.ports, type.port_count))
-      ports.push_back(fmt::format("{} {} {} {}", it->name, it->type, it->direction, it->flags));
-    std::ranges::sort(ports);
-    return ports;
+    return type.element_types->asked_again(fixed_texts(constants));
   }
 
   bool examine_leaf(const Tried& tried) {
