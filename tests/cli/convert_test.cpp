@@ -47,9 +47,11 @@ const std::string kOurs = R"(<?xml version="1.0"?>
 </root>
 )";
 
-std::string ticks(const std::string& tree) {
-  const Outcome outcome = run_lockstep(
-      {"run", tree, "--clock", "virtual", "--view", "none", "--json", "--set", "step=0.25"});
+std::string ticks(const std::string& tree,
+                  const std::vector<std::string>& more = {"--set", "step=0.25"}) {
+  std::vector<std::string> words{"run", tree, "--clock", "virtual", "--view", "none", "--json"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = run_lockstep(words);
   INFO(outcome.err);
   REQUIRE(!outcome.out.empty());
   const auto summary = parse_json(outcome.out);
@@ -524,7 +526,7 @@ TEST_CASE("convert warns of a child that may be skipped, where the languages dif
     CHECK(branch(tag, "<Sequence>" + skipped + good + "</Sequence>").empty());
   }
   CHECK(branch("IfThenElse", decided).empty());
-  CHECK(contains(branch("WhileDoElse", decided), "runs once for each branch"));
+  CHECK(contains(branch("WhileDoElse", decided), "runs once in an activation"));
   const auto timed = [&](const std::string& tag, const std::string& child) {
     return told("<" + tag + "=\"10\">" + child + "</" + tag.substr(0, tag.find(' ')) + ">");
   };
@@ -784,6 +786,47 @@ TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
   CHECK(told_of_tree("Far"));
   CHECK(told_of_tree("OfAnotherFile"));
   CHECK_FALSE(told_of_tree("See"));
+}
+
+TEST_CASE(
+    "convert has a note about a leaf in the condition of a WhileDoElse that may be an action") {
+  const TemporaryDirectory directory;
+  const auto told = [&](const std::string& nodes, const std::string& models = "") {
+    std::string tree = around("BTCPP_format=\"4\"", nodes);
+    tree.insert(tree.rfind("</root>"), models);
+    const Outcome it = run_lockstep({"convert", directory.file("tree.xml", tree)});
+    const std::string said = "hint: for BehaviorTree.CPP, it matters whether a leaf that is";
+    const auto at = it.err.find(said);
+    CHECK(at == it.err.rfind(said));  // once
+    return at != std::string::npos;
+  };
+  const std::string unknown = "<WhileDoElse><See/><Go/></WhileDoElse>";
+  CHECK(told(unknown));
+  CHECK(told("<Sequence>" + unknown + unknown + "</Sequence>"));
+  CHECK(told("<WhileDoElse><Inverter><See/></Inverter><Go/></WhileDoElse>"));
+  CHECK_FALSE(told("<WhileDoElse><Condition ID=\"See\"/><Go/></WhileDoElse>"));
+  CHECK_FALSE(told("<WhileDoElse><Action ID=\"See\"/><Go/></WhileDoElse>"));  // a warning
+  CHECK_FALSE(told("<WhileDoElse><AlwaysSuccess/><Go/></WhileDoElse>"));
+  CHECK_FALSE(told("<IfThenElse><See/><Go/></IfThenElse>"));
+  for (const std::string kind : {"Condition", "Action"}) {
+    const std::string model = "<" + kind + " ID=\"See\"/>";
+    CHECK_FALSE(told(unknown, "<TreeNodesModel>" + model + "</TreeNodesModel>"));
+  }
+}
+
+// The script decides in the first tick: there, AlwaysFailure itself does in the second one.
+TEST_CASE("convert says who decides the condition of a WhileDoElse behind its script") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", around("BTCPP_format=\"4\"",
+                         "<WhileDoElse><AlwaysFailure _successIf=\"true\"/><Sleep msec=\"300\"/>"
+                         "<AlwaysFailure/></WhileDoElse>"));
+  const Outcome outcome = run_lockstep({"convert", tree});
+  CHECK(contains(outcome.err,
+                 "a script that decides the condition runs once in an activation, and "
+                 "then the condition itself decides; in lockstep's language"));
+  CHECK(ticks(tree, {}) == "failure 2");
+  CHECK(ticks(directory.file("ours.xml", outcome.out), {}) == "success 31");
 }
 
 TEST_CASE("convert makes a list of the cases of a Switch, and back") {

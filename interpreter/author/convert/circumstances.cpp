@@ -34,8 +34,9 @@ Circumstances::Circumstances(const Document& document, const Conversion& convers
     if (elements_[part].tag != "TreeNodesModel") continue;
     for (const std::uint32_t model : children_in(elements_, part)) {
       const Attribute* of_model = document_.find_attribute(model, "ID");
-      if (of_model == nullptr || elements_[model].tag != "Action") continue;
-      modeled_actions_.insert(of_model->value);
+      if (of_model == nullptr) continue;
+      modeled_.insert(of_model->value);
+      if (elements_[model].tag == "Action") modeled_actions_.insert(of_model->value);
     }
   }
   find_held();
@@ -51,6 +52,8 @@ bool Circumstances::apply(btcpp::When when, std::uint32_t element) {
       return is_held_[element];
     case btcpp::When::ConditionRuns:
       return has_child && may_run(first);
+    case btcpp::When::LeafMayRun:
+      return has_child && !may_run(first) && has_unknown_leaf(first);
     case btcpp::When::FirstIsSkipped:
       return has_child && skips(first) == Skips::Script;
     case btcpp::When::LeafSkipsFirst:
@@ -132,6 +135,16 @@ bool Circumstances::tree_may_run(std::uint32_t tree) {
     --levels_;
   }
   return runs_[tree] == Runs::Perhaps;
+}
+
+// Of this tree alone, since one line for a file is enough.
+bool Circumstances::has_unknown_leaf(std::uint32_t element) const {
+  return std::ranges::any_of(
+      std::views::iota(element, elements_[element].end), [&](std::uint32_t node) {
+        return node + 1 == elements_[node].end && !is_explicit_tag(elements_[node].tag) &&
+               conversion_.from_nodes.find(type_of(node)) == nullptr &&
+               !modeled_.contains(type_of(node));
+      });
 }
 
 bool Circumstances::is_modeled_action(std::string_view type) const {

@@ -31,6 +31,7 @@ class Circumstances {
   bool may_run(std::uint32_t element);
   bool may_run_itself(std::uint32_t node);
   bool tree_may_run(std::uint32_t tree);
+  bool has_unknown_leaf(std::uint32_t element) const;
   bool is_modeled_action(std::string_view type) const;
   enum class Runs : std::uint8_t { Unknown, Never, Perhaps };
   // What may skip an element: nothing, a leaf of a plugin that returns Skipped, a script.
@@ -43,7 +44,7 @@ class Circumstances {
   const Conversion& conversion_;
   std::span<const Element> elements_;
   std::unordered_map<std::string_view, std::uint32_t> trees_;  // of each ID: the first
-  std::unordered_set<std::string_view> modeled_actions_;
+  std::unordered_set<std::string_view> modeled_, modeled_actions_;
   std::vector<bool> is_held_;  // below a synchronized node, also by way of a SubTree
   std::vector<Runs> runs_;     // of trees, as far as it is known
   std::vector<Skips> skips_;   // as far as it is known

@@ -315,8 +315,9 @@ class Converter {
     for (const btcpp::Difference& it : pair_->differences) {
       if (!circumstances_.apply(it.when, element)) continue;
       // Few leaves do, so one line for each difference is enough.
-      const bool is_rare = it.when == btcpp::When::LeafSkipsFirst;
-      if (is_rare && !told_of_skips_.insert(it.what).second) continue;
+      const bool is_rare =
+          it.when == btcpp::When::LeafSkipsFirst || it.when == btcpp::When::LeafMayRun;
+      if (is_rare && !told_of_leaves_.insert(it.what).second) continue;
       not_the_same(place_of(element), type, std::string(it.what),
                    is_rare ? Severity::Note : Severity::Warning);
     }
@@ -775,7 +776,7 @@ class Converter {
   bool told_of_types_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments
-  std::set<std::string_view> told_of_skips_;
+  std::set<std::string_view> told_of_leaves_;
 };
 
 }  // namespace

@@ -57,8 +57,13 @@ constexpr Difference kAsks[] = {
      "runs does not halt the branch; in lockstep's language the action begins again in the next "
      "tick, and the branch is halted",
      When::ConditionRuns},
-    {"for BehaviorTree.CPP, a script that decides the condition runs once for each branch; in "
-     "lockstep's language it runs in every tick",
+    {"for BehaviorTree.CPP, it matters whether a leaf that is the condition, or in it, is an "
+     "action: "
+     "it may keep its result, or run next to the branch; in lockstep's language it begins again in "
+     "the next tick, and the branch is halted while it runs",
+     When::LeafMayRun},
+    {"for BehaviorTree.CPP, a script that decides the condition runs once in an activation, and "
+     "then the condition itself decides; in lockstep's language the script runs in every tick",
      When::FirstIsDecided},
     kSkipped,
     kLeafSkips};

@@ -41,6 +41,7 @@ enum class When : unsigned char {
   Always,
   IsHeld,          // it is below a synchronized node
   ConditionRuns,   // its first child, for several ticks
+  LeafMayRun,      // the same, if a leaf that nothing describes is an action
   FirstIsSkipped,  // its first child, by a script
   LeafSkipsFirst,  // its first child, if a leaf of a plugin returns Skipped
   FirstIsDecided,  // its first child has a success_if or failure_if
