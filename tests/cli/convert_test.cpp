@@ -837,7 +837,7 @@ TEST_CASE("convert makes a list of the cases of a Switch, and back") {
       "<Switch3 variable=\"x\" case_1=\"1\" case_2=\"2\" case_3=\"x\"><A/><A/><A/><A/></Switch3>"
       "</Control>";
   const std::string our_nodes =
-      "<Switch on=\"mode\" cases=\"dock;a\\;b\" name=\"m\"><A/><B/>"
+      "<Switch name=\"m\" on=\"mode\" cases=\"dock;a\\;b\"><A/><B/>"
       "<Switch on=\"'x'\" cases=\"1;2;x\"><A/><A/><A/><A/></Switch>"
       "</Switch>";
   const Outcome here = run_lockstep(
@@ -848,7 +848,7 @@ TEST_CASE("convert makes a list of the cases of a Switch, and back") {
   const Outcome there = run_lockstep({"convert", directory.file("ours.xml", here.out)});
   CHECK(there.code == 0);
   CHECK(contains(there.out,
-                 "<Switch2 variable=\"{mode}\" case_1=\"dock\" case_2=\"a;b\" name=\"m\">"));
+                 "<Switch2 name=\"m\" variable=\"{mode}\" case_1=\"dock\" case_2=\"a;b\">"));
   const Outcome again = run_lockstep({"convert", directory.file("again.xml", there.out)});
   CHECK(again.out == here.out);
 }
@@ -1067,6 +1067,35 @@ TEST_CASE("convert says what is wrong with its file") {
   CHECK(contains(run_lockstep({"convert", broken}).err, "2:1: error: "));
 }
 
+TEST_CASE("convert writes the attributes that it adds behind those of the node") {
+  const TemporaryDirectory directory;
+  const auto line_of = [&](const std::string& root, const std::string& node) {
+    const Outcome outcome =
+        run_lockstep({"convert", directory.file("tree.xml", around(root, node))});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    return lines(outcome.out)[2];
+  };
+  const std::string theirs = "BTCPP_format=\"4\"", ours = "lockstep=\"1\"";
+  CHECK(line_of(theirs, "<Sequence name=\"both\"><A/></Sequence>") ==
+        "<Sequence name=\"both\" memory=\"true\"><A/></Sequence>");
+  CHECK(line_of(theirs, "<Sequence><A/></Sequence>") ==
+        "<Sequence memory=\"true\"><A/></Sequence>");
+  CHECK(line_of(theirs, "<Timeout  msec=\"100\"  name=\"late\" ><A/></Timeout>") ==
+        "<Timeout  seconds=\"0.1\"  name=\"late\" clock=\"wall\" ><A/></Timeout>");
+  CHECK(line_of(theirs, "<Control ID=\"Sequence\" name=\"both\" _uid=\"1\"><A/></Control>") ==
+        "<Sequence name=\"both\" memory=\"true\"><A/></Sequence>");
+  CHECK(line_of(ours, "<Repeat name=\"on\"><A/></Repeat>") ==
+        "<Repeat name=\"on\" num_cycles=\"-1\"><A/></Repeat>");
+  // A script reads the node by its default name, which is then written, too.
+  CHECK(line_of(ours,
+                "<Sequence skip_if=\"status(Retry) == running\"><Retry attempts=\"2\"><A/>"
+                "</Retry></Sequence>") ==
+        "<ReactiveSequence _skipIf=\"status(Retry) == running\" name=\"Sequence\">"
+        "<RetryUntilSuccessful num_attempts=\"2\" name=\"Retry\"><A/>"
+        "</RetryUntilSuccessful></ReactiveSequence>");
+}
+
 TEST_CASE("convert writes a SetBlackboard as a Script") {
   const TemporaryDirectory directory;
   const auto converted = [&](const std::string& node) {
@@ -1083,14 +1112,14 @@ TEST_CASE("convert writes a SetBlackboard as a Script") {
   };
   CHECK(line_of(R"(output_key="stage" value="1")") == R"(<Script code="stage := 1"/>)");
   CHECK(line_of(R"(value="-0.5" output_key="far" name="n")") ==
-        R"(<Script code="far := -0.5" name="n"/>)");
+        R"(<Script name="n" code="far := -0.5"/>)");
   CHECK(line_of(R"(output_key="on" value="true")") == R"(<Script code="on := true"/>)");
   CHECK(line_of(R"(output_key="who" value="arm 1")") == R"(<Script code="who := 'arm 1'"/>)");
   CHECK(line_of(R"(output_key="who" value="")") == R"(<Script code="who := ''"/>)");
   CHECK(line_of(R"(output_key="who" value="it's")") ==
         R"(<Script code="who := &quot;it's&quot;"/>)");
   CHECK(line_of(R"(output_key="to" value="{from}" _skipIf="far")") ==
-        R"(<Script code="to := from" skip_if="far"/>)");
+        R"(<Script skip_if="far" code="to := from"/>)");
   const Outcome explicit_form =
       converted(R"(<Action ID="SetBlackboard" output_key="a" value="007"/>)");
   CHECK(contains(explicit_form.out, R"(<Script code="a := '007'"/>)"));

@@ -110,9 +110,11 @@ class Converter {
       case TokenKind::Attribute:
         return attribute(token);
       case TokenKind::TagEnd:
+        insert(end_of_attributes_, std::exchange(added_, {}));
         if (!open_.empty()) insert(token.begin + 1, open_.back().before_children);
         return;
       case TokenKind::EmptyTagEnd:
+        insert(end_of_attributes_, std::exchange(added_, {}));
         return close(token.begin + 2);
       case TokenKind::CloseTag:
         return close_tag(token);
@@ -150,6 +152,7 @@ class Converter {
     pair_ = nullptr;
     is_switch_ = is_setter_ = is_check_ = false;
     new_id_.clear();
+    end_of_attributes_ = token.begin + 1 + token.name.size();
     if (element >= document_.elements().size()) {  // a second root
       open_.back().is_left_out = true;
     } else if (open_.size() > 2 && !is_left_out() && !is_in_models()) {
@@ -158,7 +161,7 @@ class Converter {
                fmt::format("it takes {}: make a tree of a part, and a SubTree in its place",
                            kMostLevels));
       }
-      convert_node(element, token);
+      convert_node(element, token.name);
       if (reads_nodes_) keep_default_name(element, token);
     } else if (open_.size() == 2) {
       convert_child_of_root(element);
@@ -179,7 +182,7 @@ class Converter {
     const std::string_view type = id != nullptr ? id->value : token.name;
     const bool is_named = document_.find_attribute(element, "name") != nullptr;
     if (!is_named && open_.back().tag != token.name && open_.back().tag != type)
-      add_attribute(token, "name", type);
+      added_.insert(0, written("name", type));
   }
 
   void rename(std::size_t at, std::string_view name) {
@@ -188,11 +191,17 @@ class Converter {
 
   void convert_root(std::uint32_t root, const XmlToken& token) {
     const bool has_format = document_.find_attribute(root, "BTCPP_format") != nullptr;
-    if (to_ours() && !has_format) add_attribute(token, "lockstep", "1");
+    const std::size_t behind_tag = token.begin + 1 + token.name.size();
+    if (to_ours() && !has_format) edits_.insert(behind_tag, written("lockstep", "1"));
   }
 
-  void add_attribute(const XmlToken& tag, std::string_view name, std::string_view value) {
-    edits_.insert(tag.begin + 1 + tag.name.size(), fmt::format(" {}={}", name, quoted(value)));
+  static std::string written(std::string_view name, std::string_view value) {
+    return fmt::format(" {}={}", name, quoted(value));
+  }
+
+  // Behind those that the node has: a reader looks for ID and name first.
+  void add_attribute(std::string_view name, std::string_view value) {
+    added_ += written(name, value);
   }
 
   void convert_child_of_root(std::uint32_t element) {
@@ -281,10 +290,10 @@ class Converter {
                std::move(difference), severity);
   }
 
-  void convert_node(std::uint32_t element, const XmlToken& token) {
-    const bool is_explicit = is_explicit_tag(token.name);
+  void convert_node(std::uint32_t element, std::string_view tag) {
+    const bool is_explicit = is_explicit_tag(tag);
     const Attribute* id = is_explicit ? document_.find_attribute(element, "ID") : nullptr;
-    std::string_view type = id != nullptr ? id->value : token.name;
+    std::string_view type = id != nullptr ? id->value : tag;
     if (is_explicit && id == nullptr) return cannot(place_of(element), "a node without 'ID'");
     if (to_ours() && conversion_.from_nodes.find(type) == nullptr) {
       if (const auto since = btcpp::node_since_4(type); !since.empty()) type = since;
@@ -296,20 +305,20 @@ class Converter {
       return;
     }
     is_switch_ = to_ours() ? switch_cases_there(type) != 0 : type == "Switch";
-    if (is_switch_) return convert_switch(element, type, token);
+    if (is_switch_) return convert_switch(element, type);
     is_setter_ = to_ours() && type == "SetBlackboard";
-    if (is_setter_) return convert_setter(element, token);
+    if (is_setter_) return convert_setter(element);
     pair_ = find_pair(element, type);
     if (pair_ == nullptr) {
       return cannot(place_of(element), fmt::format("this '{}'", brief(type)), hint_of(type));
     }
     open_.back().tag = to_ours() ? pair_->ours : pair_->theirs;
     const FixedAttribute& fixed = to_ours() ? pair_->in_ours : pair_->in_theirs;
-    if (!fixed.name.empty() && !fixed.is_default) add_attribute(token, fixed.name, fixed.value);
+    if (!fixed.name.empty() && !fixed.is_default) add_attribute(fixed.name, fixed.value);
     for (const AttributePair& it : pair_->attributes) {
       const bool is_absent = document_.find_attribute(element, it.ours) == nullptr;
       if (!to_ours() && it.conversion == Conversions::Rounds && is_absent) {
-        add_attribute(token, it.theirs, "-1");
+        add_attribute(it.theirs, "-1");
       }
     }
     for (const btcpp::Difference& it : pair_->differences) {
@@ -321,10 +330,10 @@ class Converter {
       not_the_same(place_of(element), type, std::string(it.what),
                    is_rare ? Severity::Note : Severity::Warning);
     }
-    if (pair_->ours == "SubTree") convert_subtree(element, token);
+    if (pair_->ours == "SubTree") convert_subtree(element);
   }
 
-  void convert_subtree(std::uint32_t element, const XmlToken& token) {
+  void convert_subtree(std::uint32_t element) {
     if (const auto keys = marked_keys_.differ(element); !keys.empty()) {
       report_.at("not-the-same"_code, place_of(element),
                  fmt::format("'_autoremap' is not quite the same for {}", listed(keys)),
@@ -333,11 +342,11 @@ class Converter {
                  "that trees share a name without '_', and others a different name in each tree",
                  Severity::Warning);
     }
-    convert_model(element, token);
+    convert_model(element);
   }
 
   // There, a model gives a SubTree the ports that it leaves out. Here, models are for editors.
-  void convert_model(std::uint32_t element, const XmlToken& token) {
+  void convert_model(std::uint32_t element) {
     const Attribute* id = document_.find_attribute(element, "ID");
     const auto model = conversion_.models.subtrees.find(id == nullptr ? "" : id->value);
     const bool has_model = model != conversion_.models.subtrees.end();
@@ -345,11 +354,11 @@ class Converter {
     for (const ModelPort& port : model->second.ports) {
       const bool is_given = document_.find_attribute(element, port.name) != nullptr;
       if (is_given || !port.default_value) continue;
-      to_ours() ? add_default(element, token, port) : warn_of_default(element, port);
+      to_ours() ? add_default(element, port) : warn_of_default(element, port);
     }
   }
 
-  void add_default(std::uint32_t element, const XmlToken& token, const ModelPort& port) {
+  void add_default(std::uint32_t element, const ModelPort& port) {
     const std::string_view key = btcpp::key_of(*port.default_value, port.name);
     for (const std::string_view name : {port.name, key.empty() ? port.name : key}) {
       if (is_identifier(name) && (name != port.name || !name.starts_with('_'))) continue;
@@ -359,7 +368,7 @@ class Converter {
     }
     if (key.empty())
       warn_of_start_text(place_of(element), element, port.name, std::string(*port.default_value));
-    add_attribute(token, port.name,
+    add_attribute(port.name,
                   key.empty() ? std::string(*port.default_value) : fmt::format("{{{}}}", key));
   }
 
@@ -407,7 +416,7 @@ class Converter {
                  "an entry without a value was not equal; in a script it is an error");
   }
 
-  void convert_setter(std::uint32_t element, const XmlToken& token) {
+  void convert_setter(std::uint32_t element) {
     const EntryTypes::Found entry = types_.of(place_of(element), "output_key");
     const ConvertedSetter converted = setter_to_ours(document_, element, entry.type);
     if (!converted.problem.empty()) {
@@ -423,7 +432,7 @@ class Converter {
     }
     if (!converted.is_entry) warn_of_text(place_of(element), converted.code, entry);
     open_.back().tag = "Script";
-    add_attribute(token, "code", converted.code);
+    add_attribute("code", converted.code);
   }
 
   // What is a text there may be a number here, which a script then uses. For example, n := 0,
@@ -442,7 +451,7 @@ class Converter {
                  types_.of_start_value(place_of(subtree), name));
   }
 
-  void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
+  void convert_switch(std::uint32_t element, std::string_view type) {
     const auto compared = types_.of(place_of(element), to_ours() ? "variable" : "on").type;
     const ConvertedSwitch converted =
         to_ours() ? switch_to_ours(document_, element, switch_cases_there(type), compared)
@@ -452,7 +461,7 @@ class Converter {
     }
     open_.back().tag = "Switch";
     if (!to_ours()) open_.back().tag += std::to_string(converted.attributes.size() - 1);
-    for (const auto& [name, value] : converted.attributes) add_attribute(token, name, value);
+    for (const auto& [name, value] : converted.attributes) add_attribute(name, value);
     not_the_same(place_of(element), type,
                  "for BehaviorTree.CPP, an entry without a value chooses the last child; in "
                  "lockstep's language it is an error" +
@@ -489,6 +498,7 @@ class Converter {
 
   void attribute(const XmlToken& token) {
     if (is_left_out()) return;
+    end_of_attributes_ = end_of(token);
     const std::uint32_t element = open_.back().element;
     const Attribute* found = document_.find_attribute(element, token.name);
     if (found == nullptr) return;
@@ -766,12 +776,14 @@ class Converter {
   const DeclaredArguments arguments_;
   TextEdit edits_;
   std::vector<Open> open_;
-  std::uint32_t next_ = 0;          // element
-  const NodePair* pair_ = nullptr;  // of the innermost element
-  bool is_switch_ = false;          // likewise
-  bool is_setter_ = false;          // likewise
-  bool is_check_ = false;           // likewise
-  std::string new_id_;              // of the innermost element, if it is explicit
+  std::uint32_t next_ = 0;             // element
+  const NodePair* pair_ = nullptr;     // of the innermost element
+  bool is_switch_ = false;             // likewise
+  bool is_setter_ = false;             // likewise
+  bool is_check_ = false;              // likewise
+  std::string new_id_;                 // of the innermost element, if it is explicit
+  std::string added_;                  // attributes of the tag
+  std::size_t end_of_attributes_ = 0;  // of it
   bool has_doctype_ = false;
   bool told_of_types_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
