@@ -319,7 +319,8 @@ class ModelMaker {
       const std::string_view part = rest.substr(0, rest.find('|'));
       const bool is_interval = add_interval(parameter.type, part, values);
       const std::optional<Value> value =
-          is_interval ? std::nullopt : parse_value(parameter.type, part);
+          is_interval ? std::nullopt
+                      : value_from_outside(parameter.is_generic, parameter.type, std::string(part));
       if (!value && !is_interval) {
         report().at_value("bad-value"_code, named.place,
                           fmt::format("'{}' is not a value of '{}'", brief(part), parameter.name),

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/core/any_value.h"
 #include "base/core/progress.h"
 #include "base/core/wording.h"
 #include "engine/writers.h"
@@ -175,7 +176,8 @@ void LeafAudit::compare(const Moment& moment, const Leaf& leaf, Output& output) 
   std::optional<Value> read;
   const Value* value = nullptr;
   const auto take = [&](const std::string& text) {
-    read = parse_value(leaf.leaf->type->parameters[output.of->port].type, text);
+    const Parameter& port = leaf.leaf->type->parameters[output.of->port];
+    read = value_from_outside(port.is_generic, port.type, text);
     if (read) value = &*read;
   };
   if (moment.live == nullptr) {

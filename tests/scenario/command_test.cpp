@@ -754,6 +754,35 @@ TEST_CASE("a row with the complete path of a leaf is about that leaf alone") {
   CHECK(it.code == 0);
 }
 
+// No model says the type of 'level'. A script gives the entry another number only if it has one.
+TEST_CASE("what a leaf without a model writes has the same type from everywhere") {
+  const Folder folder(R"(<scenario name="a"><leaf of="Look" result="success" out.level="5"/>
+                         <expect result="success"/></scenario>
+                         <scenario name="b"><leaf of="Look" does="S[level=far]"/>
+                         <expect result="fault"/></scenario>)",
+                      R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence>
+    <Look level="{n}"/><Script code="n := n + 2"/><ScriptCondition code="n == 7"/>
+    </Sequence></BehaviorTree></root>)");
+  const Outcome tested = folder.test();
+  INFO(tested.out << tested.err);
+  CHECK(tested.code == 0);
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"run", folder.path("t.xml"), "--clock", "virtual", "--view", "none"});
+    const Outcome it = run_lockstep(more);
+    INFO(it.err);
+    return it.code;
+  };
+  const TemporaryDirectory directory;
+  CHECK(run({"--mock", "--mock-output", "level=5"}) == 0);
+  CHECK(run({"--leaves", directory.file("s.leaves", "M/Sequence/Look = S[level=5]\n")}) == 0);
+  const std::string model = directory.file(
+      "m.leaves.xml",
+      R"(<leaves lockstep="1"><leaf of="Look" result="success" out.level="5"/></leaves>)");
+  CHECK(run({"--leaves", model}) == 0);
+  CHECK(run_lockstep({"verify", folder.path("t.xml"), "--mock", "--leaves", model}).code == 0);
+}
+
 TEST_CASE("a fact in a property of runs is refused with where facts exist") {
   const std::string where =
       "facts exist only in --property and --property-file of `lockstep verify`";

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/core/any_value.h"
 #include "base/core/deadlines.h"
 #include "base/core/suggest.h"
 #include "base/core/time_progress.h"
@@ -129,7 +130,7 @@ class PlayedLeaf final : public RemoteLeaf {
     for (const auto& [name, text] : word.written) {
       for (const BoundPort* const port : caller_.ports) {
         if (port->name() != name || port->write == nullptr) continue;
-        auto value = parse_value(port->type, text);
+        auto value = value_from_outside(port->is_generic, port->type, text);
         if (!value) continue;
         if (write_entry(*port->write, port->type, port->object(), std::move(*value))) continue;
         fail(fmt::format("port '{}': {}", name, refusal_of(*port->write, port->entry, port->type)));
@@ -285,7 +286,7 @@ std::optional<Problem> check_written(const NodeType& type, const LeafWord& word)
     if (port == type.parameters.end() || port->direction == Direction::Input) {
       return Problem{fmt::format("'{}' has no output '{}'", type.id, brief(name))};
     }
-    if (!parse_value(port->type, text)) {
+    if (!value_from_outside(port->is_generic, port->type, text)) {
       return Problem{
           fmt::format("'{}' is not a value of the port '{}' of '{}'", brief(text), name, type.id),
           fmt::format("expected {}", expected_text(port->type))};
