@@ -165,7 +165,7 @@ void ModelLeaves::fold() {
       state = {};
       continue;
     }
-    if (rule.most_ticks == 0) state.ticks = std::min(state.ticks, rule.enough_ticks);
+    state.ticks = std::min(state.ticks, rule.enough_ticks);
   }
   if (models_.cuts.most > 0) {
     for (std::uint32_t leaf = 0; leaf < states_.size(); ++leaf) {
@@ -274,8 +274,11 @@ ModelLeaves::Rule::Rule(const LeafModel& model)
   }
   least_ticks = count(model.least_ticks);
   most_ticks = count(model.most_ticks);
-  enough_ticks = count(model.least_ticks - 1);
   if (model.answers_late) be_late(model);
+  // Also with a most: one that may not succeed yet, and has no other result, goes on behind it.
+  enough_ticks = std::max(least_ticks, most_ticks);
+  if (enough_ticks > 0) --enough_ticks;
+  if (model.answers_late && model.writes_first()) enough_ticks = std::max(enough_ticks, 1u);
   in_a_tick = reaches_in_a_tick(model);
   while_held = reaches_while_held(model);
 }
@@ -290,7 +293,6 @@ void ModelLeaves::Rule::be_late(const LeafModel& model) {
     const auto most = static_cast<std::uint32_t>(std::max(steps, model.least_ticks));
     most_ticks = most_ticks == 0 ? most : std::min(most_ticks, most);
   }
-  if (model.writes_first()) enough_ticks = std::max(enough_ticks, 1u);
 }
 
 namespace {

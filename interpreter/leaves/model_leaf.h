@@ -200,7 +200,7 @@ class ModelLeaves {
 
     const double* levels;
     std::uint32_t least_ticks, most_ticks;
-    std::uint32_t enough_ticks = 0;                 // without a most, more of them are the same
+    std::uint32_t enough_ticks = 0;                 // more of them are the same
     std::vector<LevelReach> in_a_tick, while_held;  // from each level
     bool can_run;
     bool is_plain;                   // it has to do with no fact and no entry
