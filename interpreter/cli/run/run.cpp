@@ -138,6 +138,12 @@ std::optional<PausePlaces> pause_places_of(const RunCommandOptions& options, con
   return places;
 }
 
+// Whether this terminal takes commands or answers. A person who types reads lines, so there is no
+// live view.
+bool has_prompt(const RunCommandOptions& options, const PausePlaces& places, const Shape& shape) {
+  return !places.empty() || has_typist(options, shape);
+}
+
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
@@ -150,11 +156,9 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
         watched_leaves_(leaves),
         shape_(shape_of(tree_)),
         end_budget_(options.end_limit()),
-        // A person who types reads lines.
-        view_(options.view == "auto" && (!places.empty() || has_typist(options, shape_))
-                  ? "plain"
-                  : options.view,
-              shape_, options.log_level),
+        view_(
+            options.view != "none" && has_prompt(options, places, shape_) ? "plain" : options.view,
+            shape_, options.log_level),
         watch_(shape_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(shape_),
@@ -247,6 +251,10 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   bool begin_to_keep(Run& run) {
     if (properties_) kept_->set_properties(properties_->checks());
+    if (kept_->continues()) {  // what leaves log while they are restored is of then
+      statistics_.join();
+      view_.continue_with(kept_->before().ticks, kept_->before().time);
+    }
     const auto why_not = kept_->begin(run, [this](const std::string& error) {
       view_.print("error: nothing is kept any more: " + error);
     });
@@ -254,10 +262,6 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       view_.close();
       print_error("--checkpoint: " + why_not->message);
       return false;
-    }
-    if (kept_->continues()) {
-      statistics_.join();
-      view_.continue_with(kept_->before().ticks, kept_->before().time);
     }
     if (!kept_->resumed().empty()) tell(resumed());
     for (const std::string& it : kept_->fresh_properties()) tell(fresh_property_text(it));
@@ -649,6 +653,8 @@ int run(RunCommandOptions options) {
                              notes);
   }
   print_diagnostics(notes, Severity::Note);
+  if (options.view == "live" && has_prompt(options, *places, shape_of(runnable.tree)))
+    print_note("--view live: the view is plain, since you can type in this terminal");
   return RunCommand(options, runnable, std::move(*properties), std::move(*sockets), *places,
                     std::move(*kept), assumed.watched())
       .run(runnable.plugins);
