@@ -48,7 +48,7 @@ void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
     // One that was held at a cut has no text until its next tick. It may also have its answer.
     const bool begins = asks && moment.state(node).ticked() && !has_failed(moment, node);
     // The answer may be to a question that was asked before a cut, which is not open here.
-    const OpenQuestion before_cut{.node = node};
+    const OpenQuestion before_cut{node, {}};
     const bool has_answer = it == now_.end() && given_.contains(node);
     if (has_answer && is_over(moment, before_cut)) end(moment, before_cut);
     if (it == now_.end() ? !begins : !is_over(moment, *it)) continue;

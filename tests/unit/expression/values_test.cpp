@@ -127,7 +127,8 @@ TEST_CASE("bits are those of whole numbers") {
       {"'6'|1", "'|' takes two whole numbers, not the text '6' and 1"},
       {"1/0^1", "'^' takes two whole numbers, not inf and 1"},
       {"9223372036854775807&9223372036854775807",
-       "'&' takes two whole numbers, not 9223372036854775807 and 9223372036854775807"},
+       "'&' takes two whole numbers, not 9223372036854775807 (beyond 9007199254740991) and "
+       "9223372036854775807 (beyond 9007199254740991)"},
       {"~0", "-1.0"},
       {"~2.9", "-3.0"},
       {"~-2.9", "1.0"},
