@@ -68,6 +68,33 @@ TEST_CASE("resources: the summary says who waited how long, as text and as JSON"
   CHECK(part_of(pool, "held_ticks") == "P/…/eat 18 K/…/eat 19 C/…/eat 20 ");
 }
 
+TEST_CASE(
+    "resources: in a pool of more than 26, a member takes over nothing from the one before it") {
+  const auto run = [](int resources) {
+    std::string names;
+    for (int i = 0; i < resources; ++i) names += (i > 0 ? ";r" : "r") + std::to_string(i);
+    const auto member = [](const std::string& name, const std::string& keep) {
+      return "<UseResources pool=\"p\" resources=\"r0\"" + keep + "><Wait name=\"" + name +
+             "\" seconds=\"0.1\"/></UseResources>";
+    };
+    const TemporaryDirectory directory;
+    const std::string keeps = " keep=\"true\"";
+    const std::string tree = directory.file(
+        "t.xml", "<root lockstep=\"1\"><resources name=\"p\" resources=\"" + names +
+                     "\"/><BehaviorTree ID=\"M\"><Parallel><Sequence memory=\"true\">" +
+                     member("first", keeps) + member("second", keeps) + "</Sequence>" +
+                     member("third", "") + "</Parallel></BehaviorTree></root>");
+    return run_lockstep({"run", tree, "--clock", "virtual", "--view", "none"});
+  };
+  const Outcome small = run(26), large = run(27);
+  CHECK(small.code == 0);
+  CHECK(contains(small.out, "second  did not wait\n"));
+  CHECK_FALSE(contains(small.err, "pool-size"));
+  CHECK(large.code == 0);
+  CHECK(contains(large.out, "second  waited 1 time, 0.020 s in 2 ticks\n"));
+  CHECK(contains(large.err, "warning: the pool 'p' has 27 resources, more than a member can take"));
+}
+
 TEST_CASE("resources: the plain log says who waits for whom, and when it goes on") {
   const Dinner dinner;
   const Outcome outcome = dinner.run({"--view", "plain"});

@@ -140,9 +140,6 @@ constexpr TickRow kHandoverRows[] = {
   {"two in a row: one that does not keep takes over nothing",
    "Parallel(Sequence[memory=true](UseResources[pool=p resources=A keep=true](a) UseResources[pool=p resources=A](b))"
    " UseResources[pool=p resources=A](x)) resources[name=p]", "a=RS b=R x=RS", "R[a] R[a] R[x]"},
-  {"two in a row: in a pool of more than 26 resources, the second takes over nothing",
-   "Parallel(Sequence[memory=true](UseResources[pool=p resources=A keep=true](a) UseResources[pool=p resources=A keep=true](b))"
-   " UseResources[pool=p resources=A](x)) resources[name=p resources=A;B;C;D;E;F;G;H;I;J;K;L;M;N;O;P;Q;R;S;T;U;V;W;X;Y;Z;A1]", "a=RS b=R x=RS", "R[a] R[a] R[x]"},
   {"two in a row: other nodes may be around them, and between them in the same tick",
    "Parallel(Sequence[memory=true](SubTree(UseResources[pool=p resources=A keep=true](a)) z Timeout[seconds=9](UseResources[pool=p resources=A keep=true](b)))"
    " UseResources[pool=p resources=A](x)) resources[name=p]", "a=RS z=S b=RS x=R", "R[a] R[a z b] R[b] R[x]"},

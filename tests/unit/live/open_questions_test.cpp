@@ -39,8 +39,8 @@ TEST_CASE("questions: an answer is told when its node takes it, once, also over 
     it.tick(!is_cut);
     it.answer();
     for (int tick = 0; tick < 3; ++tick) it.tick(true);
-    std::vector<std::string> expected{"Main/Repeat/Ask: yes (by maria)",
-                                      "Main/Repeat/Ask asks: Where? (yes, no)"};
+    std::vector<std::string> expected{"Test/Repeat/Ask: yes (by maria)",
+                                      "Test/Repeat/Ask asks: Where? (yes, no)"};
     if (!is_cut) expected.insert(expected.begin(), expected.back());
     CHECK(it.told == expected);
     CHECK(it.questions.now().size() == 1);
