@@ -82,8 +82,11 @@ class WordMaker {
     if (!tick.faults.empty()) {
       note(Lacks::Faults,
            "the run continued after the fault in tick {}, as with '--on-fault fail': "
-           "the scenario ends with it",
-           tick.tick);
+           "the scenario ends with it{}",
+           tick.tick,
+           may_be_held(tick.faults.front().node)
+               ? ", or, if the leaf was held, with the next tick of the leaf"
+               : "");
     }
     for (const NodeIndex node : moment.stood_still) {
       note(Lacks::Intervention, "'--stall-fail' ended '{}' in tick {}: the scenario waits on",
@@ -108,11 +111,23 @@ class WordMaker {
              path);
         continue;
       }
-      if (!it.before.ticked || it.words->back().status != Status::Running) continue;
+      if (it.words->back().status != Status::Running) continue;
       const auto hook = hook_of_fault(tree_, it.leaf->node, message);
       // By an ancestor, after its tick: then it is idle. Or by its own script, before its tick.
       if (hook == Hook::OnHalted && it.before.status != Status::Running) continue;
-      take_fault(it, hook, it.begins, words_.ticks.value_or(1) - 1);
+      const std::uint64_t tick = words_.ticks.value_or(1) - 1;
+      if (!it.before.ticked) {
+        // The fault did not wait for its tick: it is in the next one that the leaf gets.
+        if (hook || it.before.status != Status::Running) continue;
+        if (it.before.held) {
+          note(Lacks::HeldFault,
+               "'{}' had the fault in tick {} while it was held: a scenario has no step for that, "
+               "so the fault is in the next tick that the leaf gets",
+               path, tick);
+        }
+        it.words->emplace_back();
+      }
+      take_fault(it, hook, it.begins, tick);
     }
   }
 
@@ -182,6 +197,7 @@ class WordMaker {
     Decision,
     Result,
     LastHalt,
+    HeldFault,
     Intervention,
     Start
   };
@@ -191,6 +207,12 @@ class WordMaker {
   void note(Lacks what, fmt::format_string<Args...> text, Args&&... args) {
     const auto is_new = noted_.insert(what).second;
     if (is_new) words_.notes.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  bool may_be_held(NodeIndex node) const {
+    return std::ranges::any_of(path_to_root(header_, node), [this](NodeIndex it) {
+      return header_.nodes[it].keeper || header_.nodes[it].group;
+    });
   }
 
   void note_too_long(const std::string& what) {

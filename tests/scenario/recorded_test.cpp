@@ -670,3 +670,78 @@ TEST_CASE("a leaf has its own progress in a scenario where something else was co
     CHECK(played.code == 0);
   }
 }
+
+namespace {
+
+struct Retold {
+  std::string text, notes;  // the scenario, and what stderr has about it
+  Outcome played;
+};
+
+// Of a recording of the wall clock that is written by hand: its lines after the header.
+Retold retold(const std::string& nodes, const std::string& ticks,
+              const std::string& after_cut = "") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T">)" + nodes + "</BehaviorTree></root>");
+  const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
+  REQUIRE(run_lockstep({"run", tree, "--rate", "10", "--clock", "virtual", "--view", "none",
+                        "--max-ticks", "1", "--record", run})
+              .code == 124);
+  std::string header = lines(read_file(run)).front();
+  header.replace(header.find("\"virtual\""), 9, "\"wall\"");
+  static_cast<void>(directory.file("run.jsonl", header + '\n' + ticks));
+  if (!after_cut.empty()) {
+    header.insert(header.rfind('}'), R"(,"first_tick":5,"resumed_after_s":0.02)");
+    static_cast<void>(directory.file("run.resumed-1.jsonl", header + '\n' + after_cut));
+  }
+  const Outcome made = run_lockstep({"log", "scenario", run, "--save", file, "--name", "s"});
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  return {read_file(file), made.err,
+          run_lockstep({"test", file, "--out", directory.path("failed")})};
+}
+
+}  // namespace
+
+TEST_CASE("a fault of a leaf that did not wait for its tick is in its scenario") {
+  const std::string both = R"(<ParallelAbsolute name="both" barriers="0.5"><Advance name="arm"/>
+<Advance name="base"/></ParallelAbsolute>)";
+  const std::string
+      begin =
+          R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0,1,0],[1,"running",0,1,0],[2,"running",0,1,0]],"limits":[[0,0.5]]}
+)",
+      end =
+          R"({"end":{"result":"fault","reason":"fault","fault":"T/both/base: the brake is broken","ticks":3,"time_s":0.2,"overruns":0,"skipped":0}}
+)";
+  const Retold moving = retold(
+      both,
+      begin +
+          R"({"tick":1,"time_s":0.1,"nodes":[[0,"running",0.1,1,0],[1,"running",0.1,1,0],[2,"running",0.2,1,0]]}
+{"tick":2,"time_s":0.2,"nodes":[[0,"running",0.2,0,0],[1,"running",0.2,0,0],[2,"running",0.3,0,0]]}
+)" + end);
+  INFO(moving.text << moving.notes << moving.played.out);
+  CHECK(contains(moving.text, R"(/base" does="R0.2 R0.3 X"/>)"));
+  CHECK(moving.notes.empty());
+  CHECK(moving.played.code == 0);
+  const Retold held = retold(
+      both,
+      begin +
+          R"({"tick":1,"time_s":0.1,"nodes":[[0,"running",0.1,1,0],[1,"running",0.1,1,0],[2,"running",0.5,0,1]]}
+{"tick":2,"time_s":0.2,"nodes":[[0,"running",0.2,0,0],[1,"running",0.2,0,0],[2,"running",0.5,0,1]]}
+)" + end);
+  INFO(held.text << held.notes);
+  CHECK(contains(held.text, R"(/base" does="R0.5 X"/>)"));
+  const std::string note = "'T/both/base' had the fault in tick 2 while it was held";
+  CHECK(contains(held.text, note));
+  CHECK(contains(held.notes, note));
+  // As with --on-fault fail. A leaf that is never held has a shorter note.
+  const Retold failed = retold(
+      both,
+      begin +
+          R"({"tick":1,"time_s":0.1,"nodes":[[0,"failure",0.1,1,0],[1,"idle",0.1,1,0],[2,"failure",0.5,1,0]],"faults":[[2,"the brake is broken"]]}
+{"end":{"result":"failure","reason":"completed","ticks":2,"time_s":0.1,"overruns":0,"skipped":0}}
+)");
+  INFO(failed.notes);
+  CHECK(contains(failed.notes, "ends with it, or, if the leaf was held, with the next tick"));
+}
