@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/core/any_value.h"
+#include "base/core/deadlines.h"
 #include "base/core/wording.h"
 #include "engine/writers.h"
 #include "judge/measure/entry_changes.h"
@@ -28,6 +29,41 @@
 namespace lockstep::host {
 namespace {
 
+// The ticks that took so long that deadlines were skipped. One that is late by less than a period
+// has the place of its deadline.
+class SkippedDeadlines {
+ public:
+  explicit SkippedDeadlines(double rate) : deadlines_(rate) {}
+
+  // Returns how many there were before the tick.
+  std::uint64_t add(const RecordedTick& tick, std::vector<RecordedWords::Late>& late) {
+    const std::uint64_t passed =
+        deadlines_.first_from(from_seconds(tick.time) + Nanoseconds(1)) - 1;
+    if (!last_) {
+      first_ = passed;  // the scenario begins with it
+      last_ = {tick.tick, 0};
+      return 0;
+    }
+    const std::uint64_t place = passed - first_;
+    const std::uint64_t expected = last_->place + (tick.tick - last_->tick);
+    const std::uint64_t skipped = place > expected ? place - expected : 0;
+    if (skipped > 0) {
+      const std::uint64_t until = last_->place + 1 + skipped;
+      late.push_back({last_->tick, deadlines_.at(until) - deadlines_.at(last_->place)});
+    }
+    last_ = {tick.tick, expected + skipped};
+    return skipped;
+  }
+
+ private:
+  struct Tick {
+    std::uint64_t tick, place;
+  };
+  const Deadlines deadlines_;
+  std::uint64_t first_ = 0;
+  std::optional<Tick> last_;
+};
+
 // The leaves of a tree as a recording has them.
 class WordMaker {
  public:
@@ -39,7 +75,8 @@ class WordMaker {
         calls_(header, tree),
         moments_(header),
         values_(header.entries.size()),
-        before_(header.nodes.size()) {
+        before_(header.nodes.size()),
+        times_(header.rate_hz) {
     std::map<std::string, NodeIndex> recorded;
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
       recorded[header.nodes[node].path] = node;
@@ -75,6 +112,7 @@ class WordMaker {
   void add(const RecordedTick& tick) {
     const Moment& moment = moments_.read(tick);
     calls_.take(moment);
+    skipped_ = header_.rate_hz > 0 ? times_.add(tick, words_.late) : 0;
     if (!tick.moments.rest.empty()) {
       note(Lacks::Moments, "tick {} has more moments than a recording keeps: the leaves do less",
            tick.tick);
@@ -279,7 +317,7 @@ class WordMaker {
   // Progress is that at the start of a tick: what the tick before has led to. Each tick that was
   // withheld is a word, but those behind which the leaf does not drift any more. One that a tick
   // reached and then held has drifted since, if the recording has what that tick led to.
-  static void take_progress(double progress, Leaf& it) {
+  void take_progress(double progress, Leaf& it) const {
     const RecordedState& before = it.before;
     if (it.words->empty() || before.status != Status::Running) return;
     LeafWord& last = it.words->back();
@@ -288,6 +326,8 @@ class WordMaker {
       last.progress = progress;
     if (!before.held) return;
     const double held_at = before.ticked ? last.progress : before.progress;
+    // These words count periods.
+    it.still += std::min(skipped_, kMostWords);
     if (progress == held_at) {
       ++it.still;
     } else {
@@ -296,6 +336,8 @@ class WordMaker {
       it.words->push_back({.kind = LeafWord::Kind::Held, .progress = progress});
     }
   }
+
+  static constexpr std::uint64_t kMostWords = 1000;  // for what has no line
 
   // A word for each tick that it got.
   void add(const RecordedTick& tick, const Moment& moment, std::span<const LeafCalls::Call> calls,
@@ -502,6 +544,8 @@ class WordMaker {
   std::vector<std::optional<std::string>> values_;  // of each entry: the last that is known
   std::vector<bool> changed_;                       // of each entry: in this tick
   std::vector<Status> before_;                      // of each node, after the tick before
+  SkippedDeadlines times_;
+  std::uint64_t skipped_ = 0;  // deadlines, before the tick
   std::set<Lacks> noted_;
   // Of each entry: what the tree gives it, and what it had before the first tick.
   std::vector<std::string> initial_, starts_;
@@ -557,6 +601,8 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
     }
     if (reader.end()) {
       words.result = reader.end()->result;
+      // With --overrun catch-up, late ticks come one right after the other.
+      if (reader.end()->skipped == 0 && reader.resumes().empty()) words.late.clear();
       maker.take_fault(reader.end()->fault);
     }
     maker.finish();

@@ -24,6 +24,12 @@ struct RecordedWords : LeafScripts {
     std::uint64_t tick;
   };
   std::vector<Change> changes;
+  // A tick that took so long that deadlines were skipped.
+  struct Late {
+    std::uint64_t tick;
+    Nanoseconds by;
+  };
+  std::vector<Late> late;
   std::vector<std::string> notes;  // what the words do not have of the run
 };
 

@@ -35,6 +35,15 @@ std::string literal(std::string_view text) {
 
 constexpr std::string_view kEnd = "</scenarios>";
 
+// "0.5", in seconds. An attribute cannot have an exponent.
+std::string decimal(Nanoseconds time) {
+  std::string text =
+      fmt::format("{}.{:09}", time.count() / 1'000'000'000, time.count() % 1'000'000'000);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 // "R0.1 R0.2*3 S"
 std::string words_text(const std::vector<LeafWord>& words) {
   std::string text;
@@ -126,6 +135,9 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
   for (const auto& it : words.changes) {
     text += fmt::format("    <set key=\"{}\" value=\"{}\" tick=\"{}\"/>\n", literal(it.key),
                         literal(it.value), it.tick);
+  }
+  for (const auto& it : words.late) {
+    text += fmt::format("    <late tick=\"{}\" by=\"{}\"/>\n", it.tick, decimal(it.by));
   }
   for (const auto& [path, leaf] : words.leaves) {
     text += fmt::format("    <leaf path=\"{}\" does=\"{}\"/>\n", literal(path),

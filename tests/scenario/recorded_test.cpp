@@ -745,3 +745,70 @@ TEST_CASE("a fault of a leaf that did not wait for its tick is in its scenario")
   INFO(failed.notes);
   CHECK(contains(failed.notes, "ends with it, or, if the leaf was held, with the next tick"));
 }
+
+TEST_CASE("the scenario of a run that skipped deadlines has its late ticks") {
+  const std::string nodes = R"(<Sequence name="s" memory="true"><Wait seconds="1"/>
+<Advance name="a" step="0.5"/></Sequence>)";
+  // In which each tick comes, as the recording has it.
+  const auto run = [&](const std::vector<double>& times, int skipped) {
+    std::string text;
+    for (std::size_t tick = 0; tick < times.size(); ++tick) {
+      const std::string states =
+          tick == 0                  ? R"([0,"running",0,1,0],[1,"running",0,1,0])"
+          : tick + 1 == times.size() ? R"([0,"success",0.5,1,0],[2,"success",0.5,1,0])"
+          : tick + 2 == times.size() ? R"([1,"success",1,1,0],[2,"running",0,1,0])"
+                                     : "";
+      text += fmt::format(R"({{"tick":{},"time_s":{},"nodes":[{}]}})", tick, times[tick], states) +
+              '\n';
+    }
+    return retold(
+        nodes,
+        text +
+            fmt::format(
+                R"({{"end":{{"result":"success","reason":"completed","ticks":{},"time_s":{},"overruns":1,"skipped":{}}}}})",
+                times.size(), times.back(), skipped) +
+            '\n');
+  };
+  const Retold late = run({0.001, 0.101, 0.201, 0.301, 0.87, 0.901, 1.001, 1.101}, 4);
+  INFO(late.text << late.played.out);
+  CHECK(contains(late.text, R"(<late tick="3" by="0.5"/>)"));
+  CHECK(late.played.code == 0);
+  // Before its first tick. Then one that is late by less than a period.
+  const Retold first = run({0.25, 0.301, 0.401, 0.599, 0.601, 0.701, 1.301, 1.401}, 7);
+  INFO(first.text << first.played.out);
+  CHECK(contains(first.text, "<late tick=\"5\" by=\"0.6\"/>\n    <leaf"));
+  CHECK(first.played.code == 0);
+  // As with --overrun catch-up.
+  const Retold caught_up = run({0, 0.1, 0.37, 0.38, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.1}, 0);
+  INFO(caught_up.text << caught_up.played.out);
+  CHECK(!contains(caught_up.text, "<late"));
+  CHECK(caught_up.played.code == 0);
+}
+
+TEST_CASE("a run with late ticks is the same run in the scenario of its recording") {
+  const TemporaryDirectory directory;
+  static_cast<void>(directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T"><Parallel><Wait seconds="0.8"/><Advance name="a"/>
+<ParallelAbsolute barriers="0.5"><Advance name="b"/><Advance name="c"/></ParallelAbsolute>
+</Parallel></BehaviorTree></root>)"));
+  // It drifts while it is held, by a step in each period.
+  std::string drifts = "R0.5";
+  for (int step = 51; step < 60; ++step) drifts += fmt::format(" ~0.{}", step);
+  for (const std::string rate : {"10", "30", "7"}) {
+    const std::string played = directory.file("p.test.xml", R"(<scenarios lockstep="1" tree="t.xml">
+<scenario name="p" rate=")" + rate + R"("><leaf path="a" from="plugin"/>
+<leaf path="b" does=")" + drifts + R"( S"/><leaf path="c" does="R.1 R.2 R.3 R.4 R.45*3 R.5 S"/>
+<late tick="2" by="0.25"/><late tick="3" by="0.31"/><expect same-as="run.jsonl"/></scenario></scenarios>)");
+    REQUIRE(run_lockstep({"test", played, "--update"}).code == 0);
+    const std::string file = directory.path("t.test.xml");
+    std::filesystem::remove(file);
+    REQUIRE(run_lockstep({"log", "scenario", directory.path("run.jsonl"), "--save", file}).code ==
+            0);
+    std::string text = read_file(file);
+    text.insert(text.find("<expect"), R"(<expect same-as="run.jsonl" tolerance="1e-12"/>)");
+    const Outcome again = run_lockstep({"test", directory.file("t.test.xml", text)});
+    INFO(text << again.out << again.err);
+    CHECK(contains(text, "<late tick=\"2\""));
+    CHECK(again.code == 0);
+  }
+}
