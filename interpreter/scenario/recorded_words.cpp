@@ -131,6 +131,9 @@ class WordMaker {
            header_.nodes[node].path, tick.tick);
     }
     find_changed(tick);
+    missing_ = tick.tick - next_tick_;
+    next_tick_ = tick.tick + 1;
+    if (missing_ > 0) gaps_.push_back({.ticks = missing_, .from = tick.tick - missing_});
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, moment, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) take_change(tick, entry);
     for (NodeIndex node = 0; node < before_.size(); ++node) before_[node] = tick.nodes[node].status;
@@ -170,6 +173,7 @@ class WordMaker {
   }
 
   void finish() {
+    note_gaps();
     note_not_recorded();
     leave_out_what_xml_lacks();
     std::erase_if(words_.leaves, [](const auto& it) { return it.second.empty(); });
@@ -245,6 +249,19 @@ class WordMaker {
   void note(Lacks what, fmt::format_string<Args...> text, Args&&... args) {
     const auto is_new = noted_.insert(what).second;
     if (is_new) words_.notes.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  void note_gaps() {
+    if (gaps_.empty()) return;
+    words_.lacks_ticks = true;
+    std::uint64_t ticks = 0;
+    for (const RecordedGap& it : gaps_) ticks += it.ticks;
+    const std::string places = gaps_.size() == 1 ? "" : fmt::format(" in {} places", gaps_.size());
+    words_.notes.insert(
+        words_.notes.begin(),
+        fmt::format("{} {} missing{}, from tick {} on: what leaves did there is guessed, and the "
+                    "scenario may take more or fewer ticks",
+                    counted(ticks, "tick"), ticks == 1 ? "is" : "are", places, gaps_[0].from));
   }
 
   bool may_be_held(NodeIndex node) const {
@@ -327,7 +344,7 @@ class WordMaker {
     if (!before.held) return;
     const double held_at = before.ticked ? last.progress : before.progress;
     // These words count periods.
-    it.still += std::min(skipped_, kMostWords);
+    it.still += std::min(missing_ + skipped_, kMostWords);
     if (progress == held_at) {
       ++it.still;
     } else {
@@ -337,13 +354,36 @@ class WordMaker {
     }
   }
 
+  // There is no line of the ticks before this one. What they led to is known: a leaf that ran has
+  // moved on, evenly as far as anybody knows, or has a result, which the scenario has in this tick.
+  void guess_missing(const RecordedTick& tick, double progress, Leaf& it) {
+    const RecordedState &before = it.before, &now = tick.nodes[it.node];
+    const bool has_result = has_ended(now.status) && !now.ticked;
+    const bool is_there = now.ticked || now.status != Status::Idle;
+    const bool ran = before.status == Status::Running && !it.words->empty();
+    if (ran && is_there && !before.held && !now.held && missing_ <= kMostWords) {
+      const double end = has_result && now.status == Status::Success ? 1 : progress;
+      const double step = std::max(end - before.progress, 0.0) / static_cast<double>(missing_ + 1);
+      for (std::uint64_t ticks = 1; ticks <= missing_ + 1; ++ticks) {
+        const double after = std::min(before.progress + step * static_cast<double>(ticks), 1.0);
+        if (ticks > 1) it.words->emplace_back();
+        it.words->back().progress = after;
+      }
+    }
+    if (!has_result) {
+      if (is_there) take_progress(progress, it);
+    } else if (now.status != before.status && !is_left_to_script(it, now.status, !ran, tick.tick)) {
+      add_word(tick, it, now.status, 0, true);
+    }
+  }
+
   static constexpr std::uint64_t kMostWords = 1000;  // for what has no line
 
   // A word for each tick that it got.
   void add(const RecordedTick& tick, const Moment& moment, std::span<const LeafCalls::Call> calls,
            Leaf& it) {
     const double progress = calls_.progress_at(moment, it.node, 0);
-    take_progress(progress, it);
+    missing_ > 0 ? guess_missing(tick, progress, it) : take_progress(progress, it);
     it.before = tick.nodes[it.node];
     it.before.progress = progress;
     if (it.before.ticked) it.still = 0;
@@ -545,7 +585,9 @@ class WordMaker {
   std::vector<bool> changed_;                       // of each entry: in this tick
   std::vector<Status> before_;                      // of each node, after the tick before
   SkippedDeadlines times_;
-  std::uint64_t skipped_ = 0;  // deadlines, before the tick
+  std::uint64_t next_tick_ = 0;
+  std::uint64_t missing_ = 0, skipped_ = 0;  // ticks and deadlines, before the tick
+  std::vector<RecordedGap> gaps_;
   std::set<Lacks> noted_;
   // Of each entry: what the tree gives it, and what it had before the first tick.
   std::vector<std::string> initial_, starts_;

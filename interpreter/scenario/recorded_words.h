@@ -24,6 +24,7 @@ struct RecordedWords : LeafScripts {
     std::uint64_t tick;
   };
   std::vector<Change> changes;
+  bool lacks_ticks = false;  // what leaves did in them is guessed
   // A tick that took so long that deadlines were skipped.
   struct Late {
     std::uint64_t tick;

@@ -107,8 +107,9 @@ std::string named_in(const std::string& path, const std::string& file) {
 
 std::string ending_text(const RecordedWords& words) {
   const bool is_cut = words.result.empty() || words.result == "stopped";
-  return fmt::format("    <expect result=\"{}\" ticks=\"{}\"/>\n",
-                     is_cut ? "running" : words.result, words.ticks.value_or(0));
+  const std::string ticks =
+      words.lacks_ticks ? "" : fmt::format(" ticks=\"{}\"", words.ticks.value_or(0));
+  return fmt::format("    <expect result=\"{}\"{}/>\n", is_cut ? "running" : words.result, ticks);
 }
 
 }  // namespace

@@ -812,3 +812,57 @@ TEST_CASE("a run with late ticks is the same run in the scenario of its recordin
     CHECK(again.code == 0);
   }
 }
+
+TEST_CASE("a leaf that completes in ticks that a recording has lost does so in its scenario") {
+  const std::string nodes = R"(<Sequence name="s" memory="true"><Advance name="c"/>
+<Parallel name="p"><Advance name="a"/><Advance name="b"/></Parallel></Sequence>)";
+  const std::string
+      before = R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0,1,0],[1,"running",0,1,0]]}
+{"tick":1,"time_s":0.1,"nodes":[[1,"running",0.3,1,0]]}
+)",
+      lost = R"({"lost":{"ticks":3,"from":2}}
+)",
+      states =
+          R"([0,"running",0.6,1,0],[1,"success",1,0,0],[2,"running",0.2,1,0],[3,"running",0.2,1,0],[4,"running",0.2,1,0])",
+      after = R"({"tick":6,"time_s":0.6,"nodes":[[3,"success",0.4,1,0],[4,"running",0.4,1,0]]}
+{"tick":7,"time_s":0.7,"nodes":[[0,"success",0.7,1,0],[2,"success",0.7,1,0],[4,"success",0.6,1,0]]}
+)";
+  const auto end = [](const std::string& more) {
+    return R"({"end":{"result":"success","reason":"completed","ticks":8,"time_s":0.8,"overruns":0,"skipped":0)" +
+           more + "}}\n";
+  };
+  const Retold gap = retold(nodes, before + lost + R"({"tick":5,"time_s":0.5,"nodes":[)" + states +
+                                       "]}\n" + after + end(R"(,"lost":3)"));
+  const Retold cut = retold(
+      nodes, before,
+      R"({"tick":5,"time_s":0.5,"nodes":[)" + states + R"(],"whole":[]})" + '\n' + after + end(""));
+  for (const Retold& it : {gap, cut}) {
+    INFO(it.text << it.notes << it.played.out << it.played.err);
+    CHECK(contains(it.text, R"(/c" does="R0.3 R0.475 R0.65 R0.825 R1 S"/>)"));
+    CHECK(contains(it.text, R"(<expect result="success"/>)"));
+    const std::string note =
+        "3 ticks are missing, from tick 2 on: what leaves did there is guessed";
+    CHECK(contains(it.text, note));
+    CHECK(contains(it.notes, "note: " + note));
+    CHECK(!contains(it.notes, "error"));
+    CHECK(it.played.code == 0);
+    CHECK(contains(it.played.out, "8 ticks"));
+  }
+}
+
+TEST_CASE(
+    "a leaf that runs on through ticks that a recording has lost takes as many in its scenario") {
+  const Retold it = retold(
+      R"(<Parallel name="p"><Advance name="a"/><Advance name="b"/></Parallel>)",
+      R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0,1,0],[1,"running",0,1,0],[2,"running",0,1,0]]}
+{"lost":{"ticks":1,"from":1}}
+{"tick":2,"time_s":0.2,"nodes":[[0,"running",0.25,1,0],[1,"running",0.25,1,0],[2,"success",1,0,0]]}
+{"lost":{"ticks":2,"from":3}}
+{"tick":5,"time_s":0.5,"nodes":[[0,"success",0.5,1,0],[1,"success",0.5,1,0]]}
+{"end":{"result":"success","reason":"completed","ticks":6,"time_s":0.6,"overruns":0,"skipped":0,"lost":3}}
+)");
+  INFO(it.text << it.notes << it.played.out);
+  CHECK(contains(it.text, R"(/a" does="R0.125 R0.25 R0.333333333333 R0.416666666667 R0.5 S"/>)"));
+  CHECK(contains(it.notes, "3 ticks are missing in 2 places, from tick 1 on"));
+  CHECK(contains(it.played.out, "6 ticks"));
+}

@@ -59,7 +59,7 @@ int report_end(const RecordingOutcome& outcome) {
     print_error(outcome.error);
     return kExitInvalidTree;
   }
-  if (!outcome.gaps.empty()) print_error(outcome.gaps);
+  if (!outcome.gaps.empty()) print_note(outcome.gaps);
   if (!outcome.cut.empty()) print_error(fmt::format("the recording is cut: {}", outcome.cut));
   return kExitSuccess;
 }

@@ -29,7 +29,8 @@ int write_scenario(const LogScenarioOptions& options, const RecordingHeader& hea
   const auto tree = options.save.empty() ? Result<std::string>(std::string())
                                          : tree_in_scenario_file(options.save, of);
   if (!tree) return refuse(tree.error());
-  const RecordedWords words = read_recorded_words(options.file, recorded.tree());
+  RecordedWords words = read_recorded_words(options.file, recorded.tree());
+  if (words.lacks_ticks) words.outcome.gaps.clear();  // a note says more
   if (const int code = report_end(words.outcome); code != kExitSuccess) return code;
   const std::string name =
       options.name.empty()
