@@ -230,7 +230,7 @@ def waiting(directory, seconds):
 
 def test_a_terminal_with_a_prompt_has_no_live_view(directory):
     run = Terminal(directory, os.path.join(TREES, "ask.xml"), "--view", "live")
-    run.wait_for("note: --view live: the view is plain, since you can type in this terminal")
+    run.wait_for("--view live: the view is plain, since you can type in this terminal")
     run.wait_for(r"1  shelf\r\n  2  table\r\n  3  bin\r\n\(1 to 3\) ")
     run.type("1")
     run.wait_for(r"Main/Sequence/where: shelf \(by terminal\)")

@@ -227,7 +227,7 @@ def test_what_the_element_says_is_known_to_a_leaf_that_continues(directory):
     mission = Mission(directory, OURS, '<plugin name="count" program="count.py"/>',
                       f'<Parallel><Count name="it" on_resume="failure"/>{CLOCK}</Parallel>')
     resumed = mission.cut_and_resume(0.4).stderr
-    assert re.search(r"0\.400 s +tick 4 .*power False, failure", resumed), resumed
+    assert re.search(r"0\.300 s +tick 4 .*power False, failure", resumed), resumed
 
 
 def test_what_is_wrong_with_an_element(directory):
