@@ -80,7 +80,7 @@ bool keep(lockstep_run& run, KeepOptions options, const lockstep_keep_options& g
   const LoopOptions::Before before = run.kept->before();
   run.first_tick = run.run.ticker().tick_number();
   run.last = before.time;
-  run.watchers.go_on(before.ticks, before.gap, run.kept->resumed());
+  run.watchers.go_on(before.ticks, before.gap, before.set, run.kept->resumed());
   return true;
 }
 

@@ -12,9 +12,12 @@ namespace lockstep::host::embedding {
 RunWatchers::RunWatchers(const Tree& tree, RunDescription run, RunStart start)
     : tree_(tree), run_(std::move(run)), start_(start) {}
 
-void RunWatchers::go_on(std::uint64_t first_tick, Nanoseconds gap, std::string text) {
+void RunWatchers::go_on(std::uint64_t first_tick, Nanoseconds gap,
+                        std::span<const std::uint32_t> set, std::string text) {
   start_.first_tick = first_tick;
   start_.gap = gap;
+  set_.assign(set.begin(), set.end());
+  start_.set = set_;
   resumed_ = std::move(text);
 }
 
@@ -104,7 +107,7 @@ void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
     for (Observer* const it : observers_) it->run_ended(moments.now(ticker), end);
   }
   all_.reset();
-  go_on(0, Nanoseconds(0), {});
+  go_on(0, Nanoseconds(0), {}, {});
   observers_.clear();
   groot_.reset();
   const Lock lock(mutex_);

@@ -25,7 +25,9 @@ class RunWatchers {
   RunWatchers(const Tree& tree, RunDescription run, RunStart start);
 
   // The run goes on after a cut, which is logged. Before who logs is there.
-  void go_on(std::uint64_t first_tick, Nanoseconds gap, std::string text);
+  // `set`: as in RunStart.
+  void go_on(std::uint64_t first_tick, Nanoseconds gap, std::span<const std::uint32_t> set,
+             std::string text);
   // Both are called before the first tick, and return what is wrong, or nothing. `on_error` is
   // called once, when the recording cannot be written any more.
   std::optional<Problem> record(std::string file,
@@ -60,7 +62,8 @@ class RunWatchers {
   const Tree& tree_;
   const RunDescription run_;
   RunStart start_;
-  std::string resumed_;  // "": it has begun
+  std::vector<std::uint32_t> set_;  // of it
+  std::string resumed_;             // "": it has begun
   bool is_begun_ = false;
   Status status_ = Status::Idle;  // of the root, after the last tick
   std::vector<Observer*> observers_;

@@ -151,7 +151,8 @@ std::optional<Problem> KeptRun::begin(Run& run,
                                                       .properties = properties_,
                                                       .on_error = std::move(on_error)});
   const InEngine scope(run.blackboard().lock.get());
-  if (writer_->begin(run.ticker(), facts_, before().ticks, from_ ? from_->resumes + 1 : 0)) {
+  if (writer_->begin(run.ticker(), facts_, before().ticks, from_ ? from_->resumes + 1 : 0,
+                     before().set)) {
     return std::nullopt;
   }
   return Problem{printable(writer_->error())};
@@ -162,8 +163,8 @@ void KeptRun::after_tick(Ticker& ticker, Status status) {
 }
 
 LoopOptions::Before KeptRun::before() const {
-  return from_ ? LoopOptions::Before{.ticks = from_->ticks, .time = from_->time, .gap = gap_}
-               : LoopOptions::Before{};
+  if (!from_) return {};
+  return {.ticks = from_->ticks, .time = from_->time, .gap = gap_, .set = from_->set};
 }
 
 void KeptRun::go_on(Run& run) {

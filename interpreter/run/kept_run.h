@@ -58,7 +58,7 @@ class KeptRun {
   std::optional<Problem> begin(Run& run, std::function<void(const std::string& error)> on_error);
   bool continues() const { return from_.has_value(); }
   CheckpointWriter* writer() { return writer_ ? &*writer_ : nullptr; }
-  LoopOptions::Before before() const;
+  LoopOptions::Before before() const;  // valid as long as this
   // Around the ticks of who ticks by himself; the loop has the writer.
   void before_tick(Ticker& ticker) { ticker.set_durable(writer_->durable()); }
   void after_tick(Ticker& ticker, Status status);

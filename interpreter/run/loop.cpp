@@ -43,8 +43,8 @@ class Loop {
 
   RunEnd run() {
     observe([&](Observers& it) {
-      it.run_started(run_.ticker(),
-                     {run_.period(), is_real_, end_.first_tick, options_.before.gap});
+      it.run_started(run_.ticker(), {run_.period(), is_real_, end_.first_tick, options_.before.gap,
+                                     options_.before.set});
     });
     watch_leaves([&](WatchedLeaves& it) { it.begin(run_.ticker()); });
     if (run_.fault() == nullptr) {  // of a leaf that could not be created

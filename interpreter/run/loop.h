@@ -53,8 +53,9 @@ struct LoopOptions {
   // continue.
   struct Before {
     std::uint64_t ticks = 0;
-    Nanoseconds time{0};  // of the last one
-    Nanoseconds gap{0};   // since then, in which there was no process
+    Nanoseconds time{0};                      // of the last one
+    Nanoseconds gap{0};                       // since then, in which there was no process
+    std::span<const std::uint32_t> set = {};  // entries that came from outside since then
   };
   Before before = {};
 };

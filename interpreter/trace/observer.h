@@ -20,7 +20,8 @@ struct RunStart {
   // Of a run that continues after a cut. Its ticks and its time count from the beginning of the
   // run.
   std::uint64_t first_tick = 0;
-  Nanoseconds gap{0};  // since its state was saved
+  Nanoseconds gap{0};                       // since its state was saved
+  std::span<const std::uint32_t> set = {};  // slots that came from outside before its first tick
 };
 
 struct TickReport {

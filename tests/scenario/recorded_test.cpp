@@ -866,3 +866,23 @@ TEST_CASE(
   CHECK(contains(it.notes, "3 ticks are missing in 2 places, from tick 1 on"));
   CHECK(contains(it.played.out, "6 ticks"));
 }
+
+TEST_CASE("what came from outside before the first tick after a cut is set in its scenario") {
+  const auto sets = [](const std::string& value) {
+    return retold(
+               R"(<Sequence name="s" memory="true"><Script code="go := false"/>
+<WaitUntil name="w" code="go == true"/><Script code="go = false"/></Sequence>)",
+               R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0,1,0],[1,"success",0,1,0],[2,"running",0,1,0]],"entries":[[0,"false"]]}
+{"lost":{"ticks":3,"from":1}}
+{"tick":4,"time_s":0.4,"nodes":[]}
+)",
+               R"({"tick":5,"time_s":0.5,"nodes":[[0,"success",0.3,1,0],[1,"success",1,0,0],[2,"success",0,1,0],[3,"success",0,1,0]],)" +
+                   value + R"(}
+{"end":{"result":"success","reason":"completed","ticks":6,"time_s":0.5,"overruns":0,"skipped":0}}
+)")
+        .text;
+  };
+  CHECK(contains(
+      sets(R"("entries":[[0,"false"]],"set":[0],"given":[[0,"true"]],"whole":[[0,"false"]])"),
+      R"(<set key="go" value="true" tick="5"/>)"));
+}

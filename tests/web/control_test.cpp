@@ -237,6 +237,16 @@ TEST_CASE("an answer and a value that a paused run was given outlast a cut") {
     REQUIRE(lines(events.out).size() == 1);  // it is not asked again
     CHECK(contains(events.out, "no (by page: maria)"));
     CHECK(contains(events.out, "tick 5 "));
+    // It came from outside, as without the cut.
+    const std::string resumed = read_file(directory.path("run.resumed-1.jsonl"));
+    const std::string first = lines(resumed)[1];
+    INFO(first);
+    CHECK(contains(first, R"("entries":[[0,"2"],)"));
+    CHECK(contains(first, R"("set":[0])"));
+    CHECK(!contains(lines(resumed)[2], "\"set\""));
+    const Outcome scenario = run_lockstep({"log", "scenario", directory.path("run.jsonl")});
+    INFO(scenario.out << scenario.err);
+    CHECK(contains(scenario.out, R"(<set key="n" value="2" tick="5"/>)"));
   }
 }
 

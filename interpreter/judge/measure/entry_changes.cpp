@@ -1,5 +1,6 @@
 #include "judge/measure/entry_changes.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lockstep::host {
@@ -57,8 +58,13 @@ EntryChanges::EntryChanges(const std::vector<std::uint32_t>& slots) {
   values_.reserve(slots.size());
 }
 
-void EntryChanges::begin(std::span<const Entry> entries) {
-  for (Watched& it : watched_) it.writes_of_tick = entries[it.slot].changes();
+void EntryChanges::begin(std::span<const Entry> entries, std::span<const std::uint32_t> set) {
+  for (Watched& it : watched_) {
+    const Entry& entry = entries[it.slot];
+    it.writes_of_tick = entry.changes();
+    it.is_set = entry.has_value() && std::ranges::find(set, it.slot) != set.end();
+    if (it.is_set) it.has_given = put_short(entry.value(), it.given);
+  }
 }
 
 void EntryChanges::before_tick(std::span<const Entry> entries) {

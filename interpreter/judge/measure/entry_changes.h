@@ -39,8 +39,9 @@ class EntryChanges {
   // For these slots of the blackboard, numbered in this order.
   explicit EntryChanges(const std::vector<std::uint32_t>& slots);
 
-  // Call once before the first tick: what was written until then is no change of a tick.
-  void begin(std::span<const Entry> entries);
+  // Call once before the first tick: what was written until then is no change of a tick, but in
+  // these slots.
+  void begin(std::span<const Entry> entries, std::span<const std::uint32_t> set = {});
   // May be called before a tick whose changes() come: finds what was written since the last ones.
   void before_tick(std::span<const Entry> entries);
   // Call after a tick. The result is valid until the next call. Allocates only if a text is longer

@@ -84,8 +84,8 @@ void RunPackets::log(std::string_view who, std::string_view level, std::string_v
   lines_.add(who, level, text);
 }
 
-void RunPackets::begin(const Moment& moment) {
-  entries_.begin(moment.entries);
+void RunPackets::begin(const Moment& moment, std::span<const std::uint32_t> set) {
+  entries_.begin(moment.entries, set);
   looked_ = moment.number;
 }
 

@@ -38,7 +38,7 @@ class RunPackets {
   std::string header(const RunStart& start) const;
 
   // Call before the first tick: what came before this is no change.
-  void begin(const Moment& moment);
+  void begin(const Moment& moment, std::span<const std::uint32_t> set = {});
   // Before a tick that is to become a packet: asks every running node for its progress.
   void before_tick(const Moment& moment);
   // The changes since the last packet that was kept. Valid until the next call.

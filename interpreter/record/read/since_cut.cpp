@@ -40,7 +40,9 @@ void SinceCut::cut(std::vector<RecordedState>& states, const Shape& shape) {
 std::vector<RecordedEntry> SinceCut::changed_entries(const RecordedTick& tick) const {
   std::vector<RecordedEntry> changed(tick.whole->begin(), tick.whole->end());
   std::erase_if(changed, [&](const RecordedEntry& it) {
-    return it.entry < entries_.size() && entries_[it.entry] == it;
+    const bool is_given =
+        std::ranges::find(tick.given, it.entry, &RecordedEntry::entry) != tick.given.end();
+    return !is_given && it.entry < entries_.size() && entries_[it.entry] == it;
   });
   return changed;
 }
@@ -65,6 +67,11 @@ void SinceCut::complete(RecordedTick& tick) {
   tick.changed = changed_;
   tick.reasons = reasons_;
   tick.heard = heard_;
+  set_.assign(tick.set.begin(), tick.set.end());
+  std::erase_if(set_, [&](std::uint32_t entry) {
+    return std::ranges::find(tick.entries, entry, &RecordedEntry::entry) == tick.entries.end();
+  });
+  tick.set = set_;
 }
 
 }  // namespace lockstep::host

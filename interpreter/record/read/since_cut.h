@@ -37,6 +37,7 @@ class SinceCut {
   std::vector<Limit> limits_;
   std::vector<RecordedReason> reasons_;
   std::vector<RecordedHeard> heard_;
+  std::vector<std::uint32_t> set_;
 };
 
 }  // namespace lockstep::host

@@ -49,7 +49,7 @@ Recorder::Recorder(const Shape& shape, RecorderOptions options)
       bytes_between_wholes_(kWholeShare * packet_size(shape.nodes.size(), 0)) {}
 
 void Recorder::run_started(const Moment& moment, const RunStart& start) {
-  packets_.begin(moment);
+  packets_.begin(moment, start.set);
   may_wait_ = !start.real_time;
   // That of a later part gets its own first tick.
   if (options_.rotation.is_wanted())

@@ -12,7 +12,7 @@ namespace {
 
 void head_fields(auto& it, Is<Checkpoint> auto& checkpoint) {
   it(checkpoint.kind, checkpoint.resumes, checkpoint.ticks, checkpoint.time, checkpoint.written,
-     checkpoint.boot, checkpoint.note, checkpoint.rounds, checkpoint.properties);
+     checkpoint.boot, checkpoint.note, checkpoint.rounds, checkpoint.set, checkpoint.properties);
 }
 
 void fact_fields(auto& it, Is<CheckpointFacts> auto& facts) {

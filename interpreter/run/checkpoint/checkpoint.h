@@ -36,6 +36,7 @@ struct Checkpoint {
   std::string boot;           // boot_id()
   std::string note;
   std::vector<std::uint32_t> rounds;  // of a robot in teams: TeamRun::keep_rounds
+  std::vector<std::uint32_t> set;     // slots that were written since the last tick, from outside
   KeptProperties properties;          // that were checked
   std::string run;                    // append_bytes()
 };

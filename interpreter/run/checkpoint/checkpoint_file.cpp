@@ -17,7 +17,7 @@ namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kMagic = "lockstep checkpoint\n";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::uint64_t kBlock = 4096;
 // Nothing larger is read or written.
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 30;

@@ -46,13 +46,15 @@ CheckpointWriter::~CheckpointWriter() {
 }
 
 bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts, std::uint64_t ticks,
-                             std::uint32_t resumes) {
+                             std::uint32_t resumes, std::span<const std::uint32_t> set) {
   head_.ticks = ticks;
+  head_.set.assign(set.begin(), set.end());
   kept_.store(ticks, std::memory_order_release);
   head_.resumes = resumes;
   head_.boot = boot_id();
   running_.reserve(ticker.tree().nodes.size());
   note_results(ticker);
+  note_writes(ticker);
   Snapshot first;
   take_leaves(ticker);
   const bool has_state = fill(first, ticker);
@@ -90,6 +92,21 @@ void CheckpointWriter::note_results(const Ticker& ticker) {
   }
 }
 
+void CheckpointWriter::note_writes(const Ticker& ticker) {
+  const std::vector<Entry>& entries = ticker.parts().entries;
+  writes_.resize(entries.size());
+  std::ranges::transform(entries, writes_.begin(), &Entry::changes);
+}
+
+// Between two ticks, only others write entries.
+void CheckpointWriter::find_set(const Ticker& ticker) {
+  const std::vector<Entry>& entries = ticker.parts().entries;
+  for (std::uint32_t slot = 0; slot < entries.size(); ++slot) {
+    const bool is_known = std::ranges::find(head_.set, slot) != head_.set.end();
+    if (!is_known && entries[slot].changes() != writes_[slot]) head_.set.push_back(slot);
+  }
+}
+
 void CheckpointWriter::take_leaves(Ticker& ticker) {
   head_.time = ticker.now();
   if (head_.kind == Checkpoint::Kind::Unfinished) ticker.save_leaves(leaves_);
@@ -124,6 +141,8 @@ void CheckpointWriter::after_tick(Ticker& ticker, std::uint64_t ticks, bool is_o
   head_.ticks = ticks;
   head_.kind = is_over ? Checkpoint::Kind::Ended : Checkpoint::Kind::Unfinished;
   note_results(ticker);
+  note_writes(ticker);
+  head_.set.clear();
   if (is_over) head_.resumes = 0;
   take_leaves(ticker);
   publish(ticker, !options_.real_time);
@@ -131,6 +150,7 @@ void CheckpointWriter::after_tick(Ticker& ticker, std::uint64_t ticks, bool is_o
 
 void CheckpointWriter::between_ticks(const Ticker& ticker, bool waits) {
   if (is_lost() || head_.kind != Checkpoint::Kind::Unfinished) return;
+  find_set(ticker);
   publish(ticker, waits || !options_.real_time);
 }
 

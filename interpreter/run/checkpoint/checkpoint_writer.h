@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -47,9 +48,10 @@ class CheckpointWriter {
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
   // Before the first tick, of a run that has `ticks` ticks behind it, and was resumed so often in a
-  // row. Returns once it is synced. False: error() says why.
+  // row. `set`: Checkpoint::set, from which it goes on. Returns once it is synced. False: error()
+  // says why.
   bool begin(Ticker& ticker, const CheckpointFacts& facts, std::uint64_t ticks,
-             std::uint32_t resumes);
+             std::uint32_t resumes, std::span<const std::uint32_t> set = {});
   // After a tick, so many in all. `is_over`: the root has a result, or all was halted, and nothing
   // goes on from here; but the next tick may begin the tree again.
   void after_tick(Ticker& ticker, std::uint64_t ticks, bool is_over = false);
@@ -77,6 +79,8 @@ class CheckpointWriter {
     std::uint32_t commit = 0;  // the last one in which an action waits for the disk
   };
   void note_results(const Ticker& ticker);
+  void note_writes(const Ticker& ticker);
+  void find_set(const Ticker& ticker);
   void take_leaves(Ticker& ticker);
   bool fill(Snapshot& snapshot, const Ticker& ticker);
   bool is_lost();
@@ -93,8 +97,9 @@ class CheckpointWriter {
   Checkpoint head_;  // of the next snapshot, without the run
   LeafBytes leaves_;
   std::uint64_t number_ = 0;
-  std::vector<NodeIndex> running_;  // actions, before the tick; while there were resumes
-  std::string lost_;                // why nothing is kept any more, as the tick thread knows it
+  std::vector<NodeIndex> running_;     // actions, before the tick; while there were resumes
+  std::vector<std::uint32_t> writes_;  // of each entry, after the last tick
+  std::string lost_;                   // why nothing is kept any more, as the tick thread knows it
 
   TripleBuffer<Snapshot> snapshots_{Snapshot()};
   std::atomic<std::uint64_t> written_{0};  // a number
