@@ -122,9 +122,7 @@ class WordMaker {
            "the run continued after the fault in tick {}, as with '--on-fault fail': "
            "the scenario ends with it{}",
            tick.tick,
-           may_be_held(tick.faults.front().node)
-               ? ", or, if the leaf was held, with the next tick of the leaf"
-               : "");
+           may_be_held(tick.faults.front().node) ? ", or with the next tick of a held leaf" : "");
     }
     for (const NodeIndex node : moment.stood_still) {
       note(Lacks::Intervention, "'--stall-fail' ended '{}' in tick {}: the scenario waits on",
@@ -163,7 +161,7 @@ class WordMaker {
         if (it.before.held) {
           note(Lacks::HeldFault,
                "'{}' had the fault in tick {} while it was held: a scenario has no step for that, "
-               "so the fault is in the next tick that the leaf gets",
+               "and has it in the next tick of the leaf",
                path, tick);
         }
         it.words->emplace_back();

@@ -743,7 +743,7 @@ TEST_CASE("a fault of a leaf that did not wait for its tick is in its scenario")
 {"end":{"result":"failure","reason":"completed","ticks":2,"time_s":0.1,"overruns":0,"skipped":0}}
 )");
   INFO(failed.notes);
-  CHECK(contains(failed.notes, "ends with it, or, if the leaf was held, with the next tick"));
+  CHECK(contains(failed.notes, "ends with it, or with the next tick of a held leaf"));
 }
 
 TEST_CASE("the scenario of a run that skipped deadlines has its late ticks") {
