@@ -591,8 +591,9 @@ class WordMaker {
   std::vector<std::string> initial_, starts_;
 };
 
-// The first node of the language that is about a time, such as a Timeout.
-std::optional<NodeIndex> timed_node(const Tree& tree) {
+// The nodes of the language that are about a time, such as a Timeout.
+std::vector<NodeIndex> timed_nodes(const Tree& tree) {
+  std::vector<NodeIndex> nodes;
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const NodeType& type = *tree.labels[node].type;
     if (type.leaf != nullptr || type.parameters.empty()) continue;
@@ -600,10 +601,39 @@ std::optional<NodeIndex> timed_node(const Tree& tree) {
     // A WaitUntil may have no timeout.
     const bool has_time = first.required || tree.nodes[node].kind->reads_entries ||
                           tree.cells[tree.nodes[node].params].number != 0;
-    if (has_time && (first.unit == "s" || first.unit == "ms")) return node;
+    if (has_time && (first.unit == "s" || first.unit == "ms")) nodes.push_back(node);
   }
-  return std::nullopt;
+  return nodes;
 }
+
+// How often nodes began to run.
+class BegunNodes {
+ public:
+  BegunNodes(const RecordingHeader& header, const Tree& tree, std::span<const NodeIndex> nodes) {
+    std::set<std::string> paths;
+    for (const NodeIndex node : nodes) paths.insert(tree.path(node));
+    for (NodeIndex it = 0; it < header.nodes.size(); ++it) {
+      if (paths.contains(header.nodes[it].path)) nodes_.push_back({it});
+    }
+  }
+
+  void add(const RecordedTick& tick) {
+    for (Node& it : nodes_) {
+      const bool runs = tick.nodes[it.node].status == Status::Running;
+      if (runs && !it.runs) ++count_;
+      it.runs = runs;
+    }
+  }
+  std::uint64_t count() const { return count_; }
+
+ private:
+  struct Node {
+    NodeIndex node;
+    bool runs = false;
+  };
+  std::vector<Node> nodes_;
+  std::uint64_t count_ = 0;
+};
 
 }  // namespace
 
@@ -629,9 +659,12 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
     for (const auto& [key, value] : header.values) words.changes.push_back({key, value, 0});
     words.rate = header.rate_hz > 0 ? std::optional(header.rate_hz) : std::nullopt;
     WordMaker maker(header, tree, words);
+    const auto timed = header.clock == "wall" ? timed_nodes(tree) : std::vector<NodeIndex>();
+    BegunNodes begun(header, tree, timed);
     std::uint64_t ticks = 0;
     while (const auto tick = reader.next()) {
       maker.add(*tick);
+      begun.add(*tick);
       ticks = tick->tick + 1;
     }
     words.ticks = ticks;
@@ -646,11 +679,11 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
       maker.take_fault(reader.end()->fault);
     }
     maker.finish();
-    const auto timed = header.clock == "wall" ? timed_node(tree) : std::nullopt;
-    if (timed) {
+    words.spare_ticks = begun.count();
+    if (!timed.empty()) {
       words.notes.push_back(
           fmt::format("the run was on the wall clock, on which '{}' may take a tick more than here",
-                      tree.path(*timed)));
+                      tree.path(timed.front())));
     }
   }
   words.outcome = reader.outcome();

@@ -25,6 +25,8 @@ struct RecordedWords : LeafScripts {
   };
   std::vector<Change> changes;
   bool lacks_ticks = false;  // what leaves did in them is guessed
+  // How many fewer the scenario may take: on the wall clock, a Wait may take a tick more.
+  std::uint64_t spare_ticks = 0;
   // A tick that took so long that deadlines were skipped.
   struct Late {
     std::uint64_t tick;

@@ -107,8 +107,13 @@ std::string named_in(const std::string& path, const std::string& file) {
 
 std::string ending_text(const RecordedWords& words) {
   const bool is_cut = words.result.empty() || words.result == "stopped";
-  const std::string ticks =
-      words.lacks_ticks ? "" : fmt::format(" ticks=\"{}\"", words.ticks.value_or(0));
+  const std::uint64_t most = words.ticks.value_or(0);
+  const std::uint64_t least = most > words.spare_ticks ? most - words.spare_ticks : 1;
+  std::string ticks = fmt::format(" ticks=\"{}\"", most);
+  if (words.lacks_ticks)
+    ticks.clear();
+  else if (!is_cut && least < most)
+    ticks = fmt::format(" ticks=\"{}..{}\"", least, most);
   return fmt::format("    <expect result=\"{}\"{}/>\n", is_cut ? "running" : words.result, ticks);
 }
 
